@@ -1,0 +1,1 @@
+//! Learners: modular DDPG ([Cai et al. 2021](crate::bib::Cai2021), Algorithm 2), its replay and its exploration noise.

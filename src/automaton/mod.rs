@@ -1,0 +1,5 @@
+//! Limit-deterministic generalised Büchi automata: the core type, the HOA format, DOT, language checks.
+
+mod ldgba;
+
+pub use ldgba::{Cube, Edge, Guard, Ldgba, Marks, StateId};

@@ -1,0 +1,44 @@
+//! The papers the project builds on, as items that doc comments link to.
+#![allow(non_snake_case)]
+
+/// M. Cai, M. Hasanbeig, S. Xiao, A. Abate, Z. Kan: *Modular Deep Reinforcement Learning for Continuous Motion Planning with
+/// Temporal Logic*, IEEE Robotics and Automation Letters 6(4), 2021.
+pub mod Cai2021 {}
+/// C. Baier, J.-P. Katoen: *Principles of Model Checking*, MIT Press, 2008.
+pub mod BaierKatoen2008 {}
+/// T. Babiak, F. Blahoudek, A. Duret-Lutz, J. Klein, J. Křetínský, D. Müller, D. Parker, J. Strejček: *The Hanoi Omega-Automata
+/// Format*, CAV 2015; format version 1.
+pub mod HOA2015 {}
+/// S. Sickert, J. Esparza, S. Jaax, J. Křetínský: *Limit-Deterministic Büchi Automata for Linear Temporal Logic*, CAV 2016.
+pub mod Sickert2016 {}
+/// J. Esparza, J. Křetínský, S. Sickert: *A Unified Translation of Linear Temporal Logic to ω-Automata*, J. ACM 67(6), 2020
+/// (LICS 2018).
+pub mod Esparza2020 {}
+/// E. M. Hahn, M. Perez, S. Schewe, F. Somenzi, A. Trivedi, D. Wojtczak: *Good-for-MDPs Automata for Probabilistic Analysis and
+/// Reinforcement Learning*, TACAS 2020.
+pub mod Hahn2020 {}
+/// A. K. Bozkurt, Y. Wang, M. M. Zavlanos, M. Pajic: *Control Synthesis from Linear Temporal Logic Specifications using
+/// Model-Free Reinforcement Learning*, ICRA 2020.
+pub mod Bozkurt2020 {}
+/// T. P. Lillicrap, J. J. Hunt, A. Pritzel, N. Heess, T. Erez, Y. Tassa, D. Silver, D. Wierstra: *Continuous Control with Deep
+/// Reinforcement Learning*, ICLR 2016.
+pub mod Lillicrap2016 {}
+/// A. Y. Ng, D. Harada, S. Russell: *Policy Invariance under Reward Transformations: Theory and Application to Reward Shaping*,
+/// ICML 1999.
+pub mod Ng1999 {}
+/// D. P. Kingma, J. Ba: *Adam: A Method for Stochastic Optimization*, ICLR 2015.
+pub mod KingmaBa2015 {}
+/// S. Fujimoto, H. van Hoof, D. Meger: *Addressing Function Approximation Error in Actor-Critic Methods*, ICML 2018.
+pub mod Fujimoto2018 {}
+/// R. Toro Icarte, T. Q. Klassen, R. Valenzano, S. A. McIlraith: *Reward Machines: Exploiting Reward Function Structure in
+/// Reinforcement Learning*, JAIR 73, 2022 (counterfactual experiences).
+pub mod ToroIcarte2022 {}
+/// A. G. Barto, R. S. Sutton, C. W. Anderson: *Neuronlike Adaptive Elements That Can Solve Difficult Learning Control Problems*,
+/// IEEE Transactions on Systems, Man, and Cybernetics, 1983.
+pub mod Barto1983 {}
+/// C. J. Clopper, E. S. Pearson: *The Use of Confidence or Fiducial Limits Illustrated in the Case of the Binomial*, Biometrika
+/// 26(4), 1934.
+pub mod ClopperPearson1934 {}
+/// R. Agarwal, M. Schwarzer, P. S. Castro, A. Courville, M. G. Bellemare: *Deep Reinforcement Learning at the Edge of the
+/// Statistical Precipice*, NeurIPS 2021.
+pub mod Agarwal2021 {}

@@ -1,0 +1,74 @@
+//! What an environment is: a continuous labelled MDP (S, A, p_S, Π, L) that is driven from outside.
+
+use crate::labels::{Labels, Propositions};
+use crate::rng::Rng;
+
+/// One number of a state, an action or an observation: its name, unit and range.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Channel {
+    /// The quantity, in words: `x`, `pole angle`.
+    pub name: &'static str,
+    /// The unit: `m`, `rad`, `m/s`; empty for a pure number.
+    pub unit: &'static str,
+    /// The least value it takes.
+    pub low: f32,
+    /// The greatest value it takes.
+    pub high: f32,
+}
+
+/// The fixed facts of an environment.
+#[derive(Clone, PartialEq, Debug)]
+pub struct EnvSpec {
+    /// The name by which task files choose it: `ball_pass`.
+    pub name: &'static str,
+    /// The physical state, as [`Environment::state`] gives it.
+    pub state: Vec<Channel>,
+    /// The action; every channel is scaled to `[-1, 1]` for the learner, its range here is in physical units.
+    pub action: Vec<Channel>,
+    /// How many numbers [`Environment::observe`] writes, each of order 1.
+    pub observation: usize,
+    /// The atomic propositions of the labelling function; letter bits follow this order.
+    pub propositions: Propositions,
+    /// A sentence for each proposition: when it holds.
+    pub meanings: Vec<String>,
+    /// Whether at most one proposition holds in any state (disjoint regions).
+    pub exclusive: bool,
+    /// Seconds of simulated time per step; 0 where time has no unit.
+    pub dt: f32,
+}
+
+/// How a step ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outcome {
+    /// The state is a regular one.
+    Running,
+    /// The environment ended by itself: the state reached has no successor. A time limit is never this.
+    Terminated,
+}
+
+/// A continuous labelled MDP. All randomness comes in from outside; the same seed gives the same path on every target.
+pub trait Environment: Send {
+    /// The fixed facts.
+    fn spec(&self) -> &EnvSpec;
+    /// Draws an initial state.
+    fn reset(&mut self, rng: &mut Rng);
+    /// Applies `action`, one number in `[-1, 1]` per channel of [`EnvSpec::action`] (values outside are clamped; NaN counts as 0).
+    fn step(&mut self, action: &[f32], rng: &mut Rng) -> Outcome;
+    /// The state in physical units, one number per channel of [`EnvSpec::state`]: all that a view or a checkpoint needs.
+    fn state(&self) -> &[f32];
+    /// Puts the environment into a state that [`Environment::state`] gave, or that a user chose; values are clamped to their range.
+    ///
+    /// # Panics
+    /// If `state` has another length than [`EnvSpec::state`].
+    fn set_state(&mut self, state: &[f32]);
+    /// Writes the learner's scaled view of the state into `observation` ([`EnvSpec::observation`] numbers of order 1).
+    fn observe(&self, observation: &mut [f32]);
+    /// L(s) of the present state.
+    fn labels(&self) -> Labels;
+    /// Draws a state from the training distribution "anywhere safe", for uniform starts; by default a plain [`Environment::reset`].
+    fn reset_anywhere(&mut self, rng: &mut Rng) {
+        self.reset(rng);
+    }
+    /// A boxed copy in the same state.
+    fn boxed_clone(&self) -> Box<dyn Environment>;
+}

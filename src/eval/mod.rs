@@ -1,0 +1,1 @@
+//! Evaluation: greedy episodes and the statistics of many.
