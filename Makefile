@@ -1,0 +1,71 @@
+# The commands of ltl-rover. `make demo` serves the page, `make test` runs every test; both set up what they need first.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+ENV := . tools/env.sh;
+PORT ?= 8080
+
+.PHONY: help
+help: ## list the commands
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F':.*## ' '{printf "  make %-16s %s\n", $$1, $$2}'
+
+.PHONY: setup
+setup: ## install what the page and the tests need (safe to run again)
+	@tools/setup.sh wasm browser web
+
+# --- the page ---------------------------------------------------------------------------------------------------------
+
+.PHONY: wasm
+wasm: ## build the WebAssembly module into web/pkg
+	@$(ENV) with_wasm wasm-pack build --release --target web --out-dir web/pkg --out-name ltl_rover --no-pack . --no-default-features --features wasm
+
+.PHONY: page
+page: wasm ## assemble the page into web/dist
+	@cd web && node build.mjs
+
+.PHONY: demo
+demo: ## set up, build and serve the page at http://localhost:8080 (PORT=… for another port)
+	@tools/setup.sh wasm web
+	@$(MAKE) --no-print-directory page
+	@cd web && node serve.mjs --port $(PORT)
+
+# --- the tests, fast ones first ------------------------------------------------------------------------------------------
+
+.PHONY: test
+test: ## set up and run all tests
+	@tools/setup.sh wasm browser web
+	@$(MAKE) --no-print-directory lint test-rust test-web test-learning test-wasm test-page
+
+.PHONY: lint
+lint: ## formatting, clippy, documentation links, types of the page
+	@$(ENV) cargo fmt --check
+	@$(ENV) cargo clippy --quiet --all-targets -- -D warnings
+	@$(ENV) cargo clippy --quiet --target wasm32-unknown-unknown --no-default-features --features wasm --lib -- -D warnings
+	@$(ENV) RUSTDOCFLAGS="-D warnings" cargo doc --quiet --no-deps
+
+.PHONY: test-rust
+test-rust: ## logic, in debug
+	@$(ENV) cargo test
+
+.PHONY: test-learning
+test-learning: ## kernels against burn, and learning, in release
+	@$(ENV) cargo test --release --features burn --test kernels --test learning
+
+.PHONY: test-wasm
+test-wasm: ## the WebAssembly module under Node
+	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary
+
+.PHONY: test-web
+test-web: ## the page's modules: types and units
+	@cd web && npx tsc --noEmit
+	@cd web && node --test tests/unit/
+
+.PHONY: test-page
+test-page: page ## the page in Chromium
+	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node --test tests/page/
+
+# --- measuring ------------------------------------------------------------------------------------------------------------
+
+.PHONY: bench
+bench: ## speed of the kernels, native and WebAssembly, as ratios in one run
+	@$(ENV) cargo bench --features burn
