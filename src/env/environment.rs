@@ -1,23 +1,38 @@
 //! What an environment is: a continuous labelled MDP (S, A, p_S, Π, L) that is driven from outside.
 
+use super::scene::Scene;
 use crate::labels::{Labels, Propositions};
 use crate::rng::Rng;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
-/// One number of a state, an action or an observation: its name, unit and range.
-#[derive(Clone, PartialEq, Debug)]
+/// One number of a state or an action: its name, unit and range.
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Channel {
     /// The quantity, in words: `x`, `pole angle`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The unit: `m`, `rad`, `m/s`; empty for a pure number.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// The least value it takes.
     pub low: f32,
     /// The greatest value it takes.
     pub high: f32,
 }
 
+impl Channel {
+    /// A channel that takes values in `[low, high]`.
+    pub fn new(name: impl Into<Cow<'static, str>>, unit: impl Into<Cow<'static, str>>, low: f32, high: f32) -> Channel {
+        Channel { name: name.into(), unit: unit.into(), low, high }
+    }
+
+    /// `value` brought into the range; NaN becomes the middle of it.
+    pub fn clamp(&self, value: f32) -> f32 {
+        if value.is_nan() { 0.5 * (self.low + self.high) } else { value.clamp(self.low, self.high) }
+    }
+}
+
 /// The fixed facts of an environment.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct EnvSpec {
     /// The name by which task files choose it: `ball_pass`.
     pub name: &'static str,
@@ -38,7 +53,7 @@ pub struct EnvSpec {
 }
 
 /// How a step ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
 pub enum Outcome {
     /// The state is a regular one.
     Running,
@@ -50,13 +65,20 @@ pub enum Outcome {
 pub trait Environment: Send {
     /// The fixed facts.
     fn spec(&self) -> &EnvSpec;
-    /// Draws an initial state.
+    /// What a view draws: the regions behind the labels and the body that moves. Fixed for the environment's life.
+    fn scene(&self) -> Scene;
+    /// Draws an initial state from the environment's own distribution, the paper's.
     fn reset(&mut self, rng: &mut Rng);
+    /// Draws an initial state spread over all safe ground (uniform starts); by default a plain [`Environment::reset`].
+    fn reset_anywhere(&mut self, rng: &mut Rng) {
+        self.reset(rng);
+    }
     /// Applies `action`, one number in `[-1, 1]` per channel of [`EnvSpec::action`] (values outside are clamped; NaN counts as 0).
     fn step(&mut self, action: &[f32], rng: &mut Rng) -> Outcome;
     /// The state in physical units, one number per channel of [`EnvSpec::state`]: all that a view or a checkpoint needs.
     fn state(&self) -> &[f32];
-    /// Puts the environment into a state that [`Environment::state`] gave, or that a user chose; values are clamped to their range.
+    /// Puts the environment into a state that [`Environment::state`] gave, or that a user chose; values are clamped to their range
+    /// and NaN becomes the middle of it.
     ///
     /// # Panics
     /// If `state` has another length than [`EnvSpec::state`].
@@ -65,10 +87,11 @@ pub trait Environment: Send {
     fn observe(&self, observation: &mut [f32]);
     /// L(s) of the present state.
     fn labels(&self) -> Labels;
-    /// Draws a state from the training distribution "anywhere safe", for uniform starts; by default a plain [`Environment::reset`].
-    fn reset_anywhere(&mut self, rng: &mut Rng) {
-        self.reset(rng);
-    }
     /// A boxed copy in the same state.
     fn boxed_clone(&self) -> Box<dyn Environment>;
+}
+
+/// One number of an action as every environment takes it: clamped to `[-1, 1]`, and 0 for NaN.
+pub(super) fn command(value: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value.clamp(-1.0, 1.0) }
 }
