@@ -1,5 +1,6 @@
 //! The limit-deterministic generalised Büchi automaton that everything above uses: total, deterministic but for ε-jumps.
 
+use super::guard::Guard;
 use crate::labels::{Labels, Propositions};
 use serde::{Deserialize, Serialize};
 
@@ -10,30 +11,24 @@ pub type StateId = u16;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Debug, Serialize, Deserialize)]
 pub struct Marks(pub u32);
 
-/// A conjunction of literals: the propositions of `positive` hold, those of `negative` do not (disjoint bit masks).
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Debug, Serialize, Deserialize)]
-pub struct Cube {
-    /// Propositions that must hold.
-    pub positive: u64,
-    /// Propositions that must not hold.
-    pub negative: u64,
-}
+impl Marks {
+    /// No accepting set.
+    pub const NONE: Marks = Marks(0);
 
-impl Cube {
-    /// Whether `sigma` satisfies every literal.
-    pub fn contains(self, sigma: Labels) -> bool {
-        sigma.0 & self.positive == self.positive && sigma.0 & self.negative == 0
+    /// Whether accepting set `j` (below 32) is one of them.
+    pub fn has(self, j: usize) -> bool {
+        self.0 >> j & 1 == 1
     }
-}
 
-/// A set of letters, as a disjunction of cubes; empty = no letter, one empty cube = every letter.
-#[derive(Clone, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
-pub struct Guard(pub Vec<Cube>);
+    /// The sets of both.
+    #[must_use]
+    pub fn union(self, other: Marks) -> Marks {
+        Marks(self.0 | other.0)
+    }
 
-impl Guard {
-    /// Whether `sigma` is one of the letters.
-    pub fn contains(&self, sigma: Labels) -> bool {
-        self.0.iter().any(|cube| cube.contains(sigma))
+    /// The indices of the sets, ascending.
+    pub fn iter(self) -> impl Iterator<Item = usize> {
+        (0..32).filter(move |j| self.has(*j))
     }
 }
 
@@ -49,7 +44,8 @@ pub struct Edge {
 /// A limit-deterministic generalised Büchi automaton (Definitions 1–3 of [Cai et al. 2021](crate::bib::Cai2021)).
 ///
 /// Every state has for every letter exactly one [`Edge`]; what non-determinism there is stands in the ε-jumps.
-/// Valid by construction: guards of a state are disjoint and cover all letters.
+/// Valid by construction ([`Ldgba::new`]): the guards of a state are disjoint and cover all letters; an ε-jump leads from Q_N into
+/// Q_D, which has none and is not left; no accepting run stays in Q_N.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Ldgba {
     pub(super) propositions: Propositions,
@@ -61,6 +57,8 @@ pub struct Ldgba {
     pub(super) epsilon: Vec<Vec<StateId>>,
     /// Per state: whether no accepting run starts there (Definition 3).
     pub(super) sinks: Vec<bool>,
+    /// Per state: whether it belongs to Q_D.
+    pub(super) deterministic: Vec<bool>,
     /// Per state: a name for views, such as the formula that is left; may be empty.
     pub(super) names: Vec<String>,
 }
@@ -118,6 +116,11 @@ impl Ldgba {
     /// Whether `q` belongs to a non-accepting sink component (Definition 3): no word is accepted from it.
     pub fn is_sink(&self, q: StateId) -> bool {
         self.sinks[q as usize]
+    }
+
+    /// Whether `q` belongs to Q_D: no ε-jump is reachable. All other states are Q_N.
+    pub fn is_deterministic(&self, q: StateId) -> bool {
+        self.deterministic[q as usize]
     }
 
     /// A name of `q` for views; may be empty.

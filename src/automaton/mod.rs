@@ -1,5 +1,12 @@
 //! Limit-deterministic generalised Büchi automata: the core type, the HOA format, DOT, language checks.
 
+mod construct;
+mod guard;
 mod ldgba;
+mod scc;
+mod word;
 
-pub use ldgba::{Cube, Edge, Guard, Ldgba, Marks, StateId};
+pub use construct::{Gaps, LdgbaError, LdgbaParts, MAX_SETS, MAX_STATES, SINK_NAME};
+pub use guard::{Cube, Effort, Guard, TooComplex};
+pub use ldgba::{Edge, Ldgba, Marks, StateId};
+pub use scc::{Components, can_reach, components};
