@@ -42,3 +42,7 @@ pub mod ClopperPearson1934 {}
 /// R. Agarwal, M. Schwarzer, P. S. Castro, A. Courville, M. G. Bellemare: *Deep Reinforcement Learning at the Edge of the
 /// Statistical Precipice*, NeurIPS 2021.
 pub mod Agarwal2021 {}
+/// J. L. Ba, J. R. Kiros, G. E. Hinton: *Layer Normalization*, arXiv:1607.06450, 2016.
+pub mod Ba2016 {}
+/// P. J. Ball, L. Smith, I. Kostrikov, S. Levine: *Efficient Online Reinforcement Learning with Offline Data*, ICML 2023.
+pub mod Ball2023 {}

@@ -1,5 +1,13 @@
 //! Actor-critic networks and their updates. Knows no logic.
+//!
+//! [`ActorCritic`] is what a learner asks of one module. [`plain`] answers it as the papers print it and is the oracle. All
+//! implementations start from the same [`initial_tensors`], hold the same named tensors and exchange them as a [`Record`].
 
 mod actor_critic;
+pub mod plain;
+mod record;
+mod tensors;
 
-pub use actor_critic::{ActorCritic, Batch, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
+pub use actor_critic::{ActorCritic, Batch, Critics, LayerNorm, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
+pub use record::{Record, RecordError};
+pub use tensors::{Role, Widths, check_tensors, initial_tensors, tensor_shapes};
