@@ -106,6 +106,14 @@ fn target_values_are_the_smaller_of_the_twins_for_the_target_actions() {
     let observations = numbers(60, &mut rng);
     let (mut actions, mut values, mut together) = (vec![0.0; 40], vec![0.0; 20], vec![0.0; 20]);
     plain.target_act(&observations, &mut actions);
+    // The second critic is the first, mirrored at its mean value of these actions: each is the smaller one somewhere.
+    plain.critics.truncate(1);
+    plain.target_action_values(&observations, &actions, &mut values);
+    let mean = values.iter().sum::<f32>() / 20.0;
+    plain.critics.push(plain.critics[0].clone());
+    let mirrored = &mut plain.critics[1].target.tensors;
+    mirrored[2].iter_mut().for_each(|weight| *weight = -*weight);
+    mirrored[3][0] = 2.0 * mean - mirrored[3][0];
     plain.target_action_values(&observations, &actions, &mut values);
     plain.target_values(&observations, &mut together);
     let mut chosen = [0, 0];
