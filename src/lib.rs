@@ -11,6 +11,8 @@
 pub mod agent;
 pub mod automaton;
 pub mod bib;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod env;
 pub mod eval;
 pub mod labels;

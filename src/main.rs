@@ -1,3 +1,5 @@
-//! The command line of ltl-rover.
+//! The program `ltl-rover`: hands over to the command line.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    ltl_rover::cli::main()
+}

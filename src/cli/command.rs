@@ -1,0 +1,37 @@
+//! The commands, and the way from the program's arguments to its exit code.
+
+use super::failure::Failure;
+use super::plot;
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Tasks in linear temporal logic, learned by modular deep reinforcement learning.
+#[derive(Parser, Debug)]
+#[command(name = "ltl-rover", version, propagate_version = true, arg_required_else_help = true, max_term_width = 110)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands. Each variant holds the arguments of the module of its name.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Draw the curves of one or several runs: average and total reward, rounds, success.
+    Plot(plot::Plot),
+}
+
+/// Reads the program's arguments, runs the command, prints its error if there is one.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(error.exit_code() as u8);
+        }
+    };
+    let done: Result<ExitCode, Failure> = match &cli.command {
+        Command::Plot(plot) => plot.run(),
+    };
+    done.unwrap_or_else(|failure| failure.print())
+}

@@ -1,0 +1,12 @@
+//! The command line: one file per command, each a `struct` of arguments with a `run`. Files, clock, threads and terminal live here.
+//!
+//! Exit codes: 0 done, 1 the answer is no or something failed while running, 2 the input is not what it must be.
+//! Results go to standard output (`--json`: one JSON object per line), progress and errors to standard error.
+
+mod command;
+mod curves;
+mod failure;
+mod plot;
+
+pub use command::{Cli, main};
+pub use failure::Failure;
