@@ -1,7 +1,7 @@
 //! Tasks in linear temporal logic, learned by modular deep reinforcement learning ([Cai et al. 2021](bib::Cai2021)).
 //!
 //! The floors, from the ground up; a module imports only from floors below its own (`tests/architecture.rs` holds the table):
-//! letters, random numbers and papers; [`ltl`], [`env`] and [`nn`], which do not know one another; [`automaton`]; [`product`];
+//! letters, random numbers and papers; [`ltl`], [`env`](mod@env) and [`nn`], which do not know one another; [`automaton`]; [`product`];
 //! [`agent`]; [`train`] and [`eval`]; the task file; the session; and at the top the two shells, command line and browser.
 //! Data flows one way: task → EP-MDP, reward and learner → trainer → tick → metrics → session → shell.
 

@@ -1,12 +1,14 @@
 //! Limit-deterministic generalised Büchi automata: the core type, the HOA format, DOT, language checks.
 
 mod construct;
+mod embed;
 mod guard;
 mod ldgba;
 mod scc;
 mod word;
 
 pub use construct::{Gaps, LdgbaError, LdgbaParts, MAX_SETS, MAX_STATES, SINK_NAME};
+pub use embed::{EmbeddedState, Embedding, EmbeddingError, FrontierRule, StateSet, StateTracking, Succession};
 pub use guard::{Cube, Effort, Guard, TooComplex};
 pub use ldgba::{Edge, Ldgba, Marks, StateId};
 pub use scc::{Components, can_reach, components};
