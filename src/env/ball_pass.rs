@@ -110,9 +110,10 @@ impl Environment for BallPass {
         self.state = [START[0], START[1], 0.0, 0.0];
     }
 
-    /// At rest, uniform over the arena. From rest every point can be held or left, since a_y may be twice gravity.
+    /// At rest, uniform over the places where the whole ball is in the arena. From rest every place can be held or left, since
+    /// a_y may be twice gravity.
     fn reset_anywhere(&mut self, rng: &mut Rng) {
-        self.state = [rng.uniform_in(0.0, SIDE), rng.uniform_in(0.0, SIDE), 0.0, 0.0];
+        self.state = [rng.uniform_in(BALL, SIDE - BALL), rng.uniform_in(BALL, SIDE - BALL), 0.0, 0.0];
     }
 
     fn step(&mut self, action: &[f32], _rng: &mut Rng) -> Outcome {

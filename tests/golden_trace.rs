@@ -1,0 +1,13 @@
+//! Paths recorded once: environments and automata walk bit for bit the same way on every target (native here, wasm under
+//! `wasm-pack test --node -- --no-default-features --test golden_trace`).
+
+use ltl_rover::env::{BallPass, CartPole, trace_hash};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
+#[cfg_attr(not(target_arch = "wasm32"), test)]
+fn environments_walk_the_recorded_paths() {
+    let found = [trace_hash(&mut BallPass::new(), 1, 5_000), trace_hash(&mut CartPole::new(), 1, 5_000)];
+    assert_eq!(found, [0x2d52_5125_4aed_5547, 0x17fb_69c5_4f9f_845e], "{found:#x?}");
+}
