@@ -10,6 +10,7 @@
 
 pub mod agent;
 pub mod automaton;
+pub mod bdd;
 pub mod bib;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -5,16 +5,20 @@
 //! whether a [`Lasso`] word satisfies it: the oracle that automata are tested against.
 
 mod ast;
+pub mod class;
 mod error;
 mod lasso;
 mod lexer;
+pub mod normal_form;
 pub mod parse;
 mod print;
 pub mod semantics;
 
 pub use ast::{BinaryOperator, Formula, UnaryOperator};
+pub use class::Traits;
 pub use error::{Note, NoteKind, ParseError, ParseErrorKind, Span};
 pub use lasso::Lasso;
+pub use normal_form::{Node, NodeId, Store};
 pub use parse::Reading;
 pub use print::{Parentheses, Printed, Style};
 pub use semantics::{Evaluator, UnknownProposition, satisfies};

@@ -1,8 +1,8 @@
 //! Round trips of the printer, and the semantics against laws and against a second, naive definition.
 
-use super::random::{formulas, lassos, propositions};
+use super::random::{NAMES, formulas, lassos, propositions};
 use ltl_rover::labels::Labels;
-use ltl_rover::ltl::{BinaryOperator as B, Formula, Lasso, Parentheses, Style, UnaryOperator as U, satisfies};
+use ltl_rover::ltl::{BinaryOperator as B, Formula, Lasso, Parentheses, Store, Style, UnaryOperator as U, satisfies};
 use proptest::prelude::*;
 
 fn holds(formula: &Formula, word: &Lasso) -> bool {
@@ -61,6 +61,16 @@ fn instance(law: &str, parts: &[Formula; 3]) -> Formula {
     put(&Formula::parse(law).unwrap(), parts)
 }
 
+fn only_propositions_are_negated(formula: &Formula) -> bool {
+    match formula {
+        Formula::True | Formula::False | Formula::Proposition(_) => true,
+        Formula::Unary(U::Not, a) => matches!(**a, Formula::Proposition(_)),
+        Formula::Unary(_, a) => only_propositions_are_negated(a),
+        Formula::Binary(B::Xor | B::Implies | B::Iff, ..) => false,
+        Formula::Binary(_, a, b) => only_propositions_are_negated(a) && only_propositions_are_negated(b),
+    }
+}
+
 /// Valid formulas: dualities, expansion laws, definitions, distribution.
 const LAWS: &[&str] = &[
     "!(x & y) <-> (!x | !y)",
@@ -117,6 +127,35 @@ proptest! {
         for law in LAWS {
             prop_assert!(holds(&instance(law, &parts), &word), "{} with {:?}", law, parts);
         }
+    }
+
+    #[test]
+    fn the_normal_form_is_equivalent(formula in formulas(6, 30), word in lassos()) {
+        let mut store = Store::new(NAMES.map(str::to_owned).to_vec());
+        let id = store.insert(&formula);
+        let negation = store.not(id);
+        let normal = store.formula(id, 100_000).unwrap();
+        prop_assert_eq!(holds(&normal, &word), holds(&formula, &word), "{} became {}", formula, normal);
+        let negated = store.formula(negation, 100_000).unwrap();
+        prop_assert_eq!(holds(&negated, &word), !holds(&formula, &word), "!({}) became {}", formula, negated);
+        for tree in [&normal, &negated] {
+            prop_assert!(only_propositions_are_negated(tree), "{}", tree);
+        }
+    }
+
+    #[test]
+    fn traits_say_the_truth(formula in formulas(4, 12), word in lassos()) {
+        let mut store = Store::new(NAMES.map(str::to_owned).to_vec());
+        let id = store.insert(&formula);
+        let traits = store.traits(id);
+        let suffix = {
+            let mut letters = word.prefix.clone();
+            letters.extend(&word.cycle);
+            Lasso { prefix: letters[1..].to_vec(), cycle: word.cycle.clone() }
+        };
+        let (here, later) = (holds(&formula, &word), holds(&formula, &suffix));
+        prop_assert!(!traits.eventual || !later || here, "{} is not eventual", formula);
+        prop_assert!(!traits.universal || !here || later, "{} is not universal", formula);
     }
 
     #[test]
