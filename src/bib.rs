@@ -46,3 +46,7 @@ pub mod Agarwal2021 {}
 pub mod Ba2016 {}
 /// P. J. Ball, L. Smith, I. Kostrikov, S. Levine: *Efficient Online Reinforcement Learning with Offline Data*, ICML 2023.
 pub mod Ball2023 {}
+/// W. Dabney, G. Ostrovski, A. Barreto: *Temporally-Extended ε-Greedy Exploration*, ICLR 2021.
+pub mod Dabney2021 {}
+/// R. S. Sutton, A. G. Barto: *Reinforcement Learning: An Introduction*, second edition, MIT Press, 2018.
+pub mod SuttonBarto2018 {}

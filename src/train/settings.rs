@@ -1,0 +1,71 @@
+//! How long, from where and under which time limit is trained, and how often is evaluated in between.
+
+use crate::product::Start;
+use serde::{Deserialize, Serialize};
+
+/// In which embedded states (q, T, T_Φ) training episodes start.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum EmbeddedStart {
+    /// In the initial one, after reading L(s_0).
+    #[default]
+    Initial,
+    /// In any that can be reached, after reading L(s_0): later parts of a task are practised from the beginning.
+    Random,
+}
+
+/// When training ends before its budget is spent.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// Never.
+    #[default]
+    Budget,
+    /// At the first periodic evaluation without a failure.
+    Perfect,
+}
+
+/// The numbers of training. The defaults are those of no task in particular: a task file gives its own.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
+pub struct TrainingSettings {
+    /// The budget in environment steps.
+    pub steps: u64,
+    /// The budget in episodes; 0 for none. What is spent first ends training.
+    pub episodes: u64,
+    /// Environment steps in an episode; 0 for the evaluation's. Reaching them truncates, which is not the end of the task: values
+    /// are bootstrapped through it.
+    pub max_steps: u32,
+    /// Where the environment starts.
+    #[cfg_attr(feature = "cli", schemars(with = "String"))]
+    pub start: Start,
+    /// Where the automaton starts.
+    pub embedded_start: EmbeddedStart,
+    /// Environment steps between evaluations of the greedy policy; 0 for none.
+    pub evaluate_every: u64,
+    /// Episodes of such an evaluation.
+    pub evaluation_runs: u32,
+    /// Failures after which such an evaluation gives up.
+    pub evaluation_failures: u32,
+    /// When training ends early.
+    pub stop: Stop,
+}
+
+impl Default for TrainingSettings {
+    fn default() -> TrainingSettings {
+        TrainingSettings {
+            steps: 300_000,
+            episodes: 0,
+            max_steps: 0,
+            start: Start::Initial,
+            embedded_start: EmbeddedStart::Initial,
+            evaluate_every: 2_000,
+            evaluation_runs: 200,
+            evaluation_failures: 4,
+            stop: Stop::Budget,
+        }
+    }
+}
