@@ -1,0 +1,78 @@
+// @ts-check
+// Assembles the page into web/dist: sources, WebAssembly, libraries, fonts, assets and the offline worker with its list of files.
+// usage: node build.mjs [--mock] [--out DIR]     --mock: the scripted stand-in instead of the WebAssembly, for tests of the views
+
+import { createHash } from 'node:crypto';
+import { cp, mkdir, readFile, readdir, rm, stat, writeFile } from 'node:fs/promises';
+import { dirname, join, relative } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { gzipSync } from 'node:zlib';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values } = parseArgs({ options: { mock: { type: 'boolean', default: false }, out: { type: 'string', default: join(here, 'dist') } } });
+const out = values.out;
+const modules = join(here, 'node_modules');
+
+/** @param {string} path */
+const exists = (path) => stat(path).then(() => true, () => false);
+/** @param {string} from @param {string} to */
+const copy = (from, to) => cp(join(here, from), join(out, to), { recursive: true });
+
+await rm(out, { recursive: true, force: true });
+await mkdir(join(out, 'vendor'), { recursive: true });
+await copy('index.html', 'index.html');
+await copy('style.css', 'style.css');
+await copy('src', 'src');
+await copy('static', '.');
+
+if (values.mock) {
+  await mkdir(join(out, 'pkg'));
+  await copy('tests/mock/ltl_rover.js', 'pkg/ltl_rover.js');
+} else {
+  if (!(await exists(join(here, 'pkg/ltl_rover_bg.wasm')))) throw new Error('web/pkg is missing: run `make wasm` first');
+  await copy('pkg/ltl_rover.js', 'pkg/ltl_rover.js');
+  await copy('pkg/ltl_rover_bg.wasm', 'pkg/ltl_rover_bg.wasm');
+}
+
+// uPlot is shipped as a script; one line makes a module of it.
+await writeFile(join(out, 'vendor/uplot.js'), (await readFile(join(modules, 'uplot/dist/uPlot.iife.min.js'), 'utf8')) + '\nexport default uPlot;\n');
+await cp(join(modules, 'uplot/dist/uPlot.min.css'), join(out, 'vendor/uplot.css'));
+await cp(join(modules, '@viz-js/viz/dist/viz.js'), join(out, 'vendor/viz.js'));
+for (const [library, name] of [['uplot', 'uplot'], ['@viz-js/viz', 'viz'], ['@fontsource-variable/ibm-plex-sans', 'ibm-plex-sans'], ['@fontsource/ibm-plex-mono', 'ibm-plex-mono']]) {
+  for (const file of ['LICENSE', 'LICENSE.md']) {
+    if (await exists(join(modules, library, file))) await cp(join(modules, library, file), join(out, `vendor/LICENSE-${name}.txt`));
+  }
+}
+await mkdir(join(out, 'fonts'));
+await cp(join(modules, '@fontsource-variable/ibm-plex-sans/files/ibm-plex-sans-latin-wght-normal.woff2'), join(out, 'fonts/ibm-plex-sans.woff2'));
+await cp(join(modules, '@fontsource/ibm-plex-mono/files/ibm-plex-mono-latin-400-normal.woff2'), join(out, 'fonts/ibm-plex-mono.woff2'));
+await cp(join(modules, '@fontsource/ibm-plex-mono/files/ibm-plex-mono-latin-500-normal.woff2'), join(out, 'fonts/ibm-plex-mono-500.woff2'));
+if (await exists(join(here, '../assets'))) await cp(join(here, '../assets'), join(out, 'assets'), { recursive: true });
+
+// What the offline worker keeps: everything, under a name that changes with the content.
+const files = (await readdir(out, { recursive: true, withFileTypes: true }))
+  .filter((entry) => entry.isFile())
+  .map((entry) => relative(out, join(entry.parentPath, entry.name)))
+  .filter((file) => !file.endsWith('.md') && !file.startsWith('vendor/LICENSE'))
+  .sort();
+const hash = createHash('sha256');
+let [whole, packed] = [0, 0];
+/** @type {{ file: string, packed: number }[]} */
+const sizes = [];
+for (const file of files) {
+  const bytes = await readFile(join(out, file));
+  hash.update(file).update(bytes);
+  const small = gzipSync(bytes, { level: 9 }).length;
+  whole += bytes.length;
+  packed += small;
+  sizes.push({ file, packed: small });
+}
+const worker = await readFile(join(here, 'service_worker.js'), 'utf8');
+await writeFile(join(out, 'service_worker.js'), worker
+  .replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 16)))
+  .replace('[/* FILES */]', JSON.stringify(['./', ...files])));
+
+sizes.sort((a, b) => b.packed - a.packed);
+console.log(`page: ${files.length + 1} files, ${Math.round(whole / 1024)} KB, ${Math.round(packed / 1024)} KB compressed, in ${relative(process.cwd(), out) || '.'}`);
+for (const { file, packed: small } of sizes.slice(0, 6)) console.log(`  ${String(Math.round(small / 1024)).padStart(5)} KB  ${file}`);

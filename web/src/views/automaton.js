@@ -1,0 +1,162 @@
+// @ts-check
+// The automaton, laid out by Graphviz and coloured by the stylesheet; the present state and the last edge are marked as they change.
+
+import { colourClass, setName, shapeName, shapePath, stateName } from '../palette.js';
+import { setText } from '../dom.js';
+
+/** @typedef {import('../protocol.js').AutomatonGraph} AutomatonGraph */
+/** @typedef {import('../protocol.js').Frame} Frame */
+/** @typedef {{ renderSVGElement: (dot: string) => SVGSVGElement }} Viz */
+
+/** A text of DOT: quoted, with what it would read as an escape taken out. @param {string} s */
+const quote = (s) => `"${s.replace(/\\/g, '\\\\').replace(/"/g, '\\"')}"`;
+
+/** Stands in a label for the shape of a set until the layout is known: as wide as one letter. */
+const PLACE = '\u25CF';
+
+/** Long guards are broken at their disjunctions. @param {string} guard */
+const broken = (guard) => (guard.length > 28 ? guard.split(' ∨ ').join(' ∨\n') : guard);
+
+/**
+ * The graph in DOT. Nodes have the ids `q0 …`, edges `e0 …`; letters are measured as those of a fixed-width font.
+ * @param {AutomatonGraph} graph
+ */
+export function toDot(graph) {
+  const wide = graph.states.length > 8;
+  const lines = [
+    'digraph {',
+    `rankdir=${wide ? 'TB' : 'LR'}; bgcolor=transparent; nodesep=0.45; ranksep=0.6; margin=0.05;`,
+    'node [shape=circle, fontname="Courier", fontsize=13, width=0.5, fixedsize=true];',
+    'edge [fontname="Courier", fontsize=12, arrowsize=0.7];',
+    'start [shape=point, width=0.06, class="start"];',
+  ];
+  for (const state of graph.states) {
+    const classes = ['state', state.sink ? 'sink' : '', state.sets.length > 0 ? 'accepting' : ''].filter(Boolean).join(' ');
+    lines.push(`${state.id} [id="q${state.id}", class=${quote(classes)}, label=${quote(stateName(state.id))}, tooltip=${quote(state.name)}${state.sets.length > 0 ? ', shape=doublecircle' : ''}];`);
+    if (state.initial) lines.push(`start -> ${state.id} [class="start"];`);
+  }
+  const marked = graph.states.map((s) => new Set(s.sets));
+  graph.edges.forEach((edge, k) => {
+    // A state that carries its sets itself does not repeat them on the edges that enter it.
+    const own = edge.sets.filter((set) => !marked[edge.to].has(set));
+    const label = (edge.epsilon ? 'ε' : broken(edge.guard)) + (own.length > 0 ? ` ${PLACE.repeat(own.length)}` : '');
+    const classes = [edge.epsilon ? 'epsilon' : '', graph.states[edge.to].sink ? 'to-sink' : ''].filter(Boolean).join(' ');
+    // Blanks around a label keep it off its edge.
+    lines.push(`${edge.from} -> ${edge.to} [id="e${k}", class=${quote(classes)}, label=${quote(` ${label} `)}${edge.epsilon ? ', style=dashed' : ''}];`);
+  });
+  lines.push('}');
+  return lines.join('\n');
+}
+
+/**
+ * The graph in words, for those who hear the page.
+ * @param {AutomatonGraph} graph
+ */
+export function inWords(graph) {
+  const sinks = graph.states.filter((s) => s.sink).length;
+  const jumps = graph.edges.filter((e) => e.epsilon).length;
+  return `Automaton with ${graph.states.length} states${sinks ? `, ${sinks} of them a sink` : ''}, ${graph.edges.length - jumps} edges`
+    + `${jumps ? `, ${jumps} ε-jumps` : ''} and ${graph.sets} accepting ${graph.sets === 1 ? 'set' : 'sets'}: `
+    + Array.from({ length: graph.sets }, (_, k) => `${setName(k)} a ${shapeName(k)}`).join(', ');
+}
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+/** @param {number} set @param {number} x @param {number} y @param {number} radius */
+function badge(set, x, y, radius) {
+  const path = document.createElementNS(SVG, 'path');
+  path.setAttribute('d', shapePath(set));
+  path.setAttribute('transform', `translate(${x} ${y}) scale(${radius})`);
+  path.setAttribute('class', `badge ${colourClass(set)}`);
+  return path;
+}
+
+/** Replaces the places in edge labels by shapes and puts the shapes of states onto them. @param {SVGSVGElement} svg @param {AutomatonGraph} graph */
+function decorate(svg, graph) {
+  graph.edges.forEach((edge, k) => {
+    const own = edge.sets.filter((set) => !graph.states[edge.to].sets.includes(set));
+    if (own.length === 0) return;
+    const text = [...svg.querySelectorAll(`[id="e${k}"] text`)].pop();
+    if (!text?.textContent) return;
+    const letters = text.textContent.trimEnd();
+    const width = 12 * 0.6;
+    const whole = text.textContent.length * width;
+    const middle = Number(text.getAttribute('x'));
+    const y = Number(text.getAttribute('y')) - 4;
+    const start = middle - whole / 2 + (letters.length - own.length) * width;
+    own.forEach((set, j) => text.after(badge(set, start + (j + 0.5) * width * 1.25, y, 4.6)));
+    text.textContent = letters.slice(0, letters.length - own.length) + '\u2007'.repeat(own.length) + ' ';
+  });
+  for (const state of graph.states) {
+    const ellipse = svg.querySelector(`[id="q${state.id}"] ellipse:last-of-type`);
+    if (!ellipse) continue;
+    const [x, y, r] = ['cx', 'cy', 'rx'].map((a) => Number(ellipse.getAttribute(a)));
+    state.sets.forEach((set, j) => {
+      const angle = -Math.PI / 4 + (j * Math.PI) / 5;
+      ellipse.parentElement?.append(badge(set, x + (r + 1) * Math.cos(angle), y + (r + 1) * Math.sin(angle), 5));
+    });
+  }
+}
+
+export class Automaton {
+  /**
+   * @param {HTMLElement} root
+   * @param {HTMLElement} now   where the present state is said in words
+   * @param {() => Promise<Viz>} loadViz
+   */
+  constructor(root, now, loadViz) {
+    this.root = root;
+    this.now = now;
+    this.loadViz = loadViz;
+    /** @type {AutomatonGraph | null} */
+    this.graph = null;
+    this.q = -1;
+    this.edge = -2;
+    this.turn = 0;
+  }
+
+  /** Draws another automaton. @param {AutomatonGraph} graph */
+  async show(graph) {
+    const turn = ++this.turn;
+    this.graph = graph;
+    this.q = -1;
+    this.edge = -2;
+    const viz = await this.loadViz();
+    if (turn !== this.turn) return;
+    const svg = viz.renderSVGElement(toDot(graph));
+    svg.querySelectorAll('title').forEach((title) => title.remove());
+    svg.setAttribute('role', 'img');
+    svg.setAttribute('aria-label', inWords(graph));
+    const [, , width, height] = (svg.getAttribute('viewBox') ?? '0 0 1 1').split(' ').map(Number);
+    svg.removeAttribute('width');
+    svg.removeAttribute('height');
+    // Never larger than 1.5 times its natural size: a graph of two states need not shout.
+    svg.style.maxWidth = `${width * 2}px`;
+    svg.style.maxHeight = `${height * 2}px`;
+    decorate(svg, graph);
+    this.root.replaceChildren(svg);
+    this.q = -1;
+    this.edge = -2;
+  }
+
+  /** @param {Frame} frame */
+  update(frame) {
+    const [q, edge] = [frame.number('q'), frame.number('edge')];
+    if (q !== this.q) {
+      this.mark(`q${this.q}`, `q${q}`, 'current');
+      this.q = q;
+    }
+    if (edge !== this.edge) {
+      this.mark(`e${this.edge}`, `e${edge}`, 'last');
+      this.edge = edge;
+      const taken = this.graph?.edges[edge];
+      setText(this.now, taken ? `${stateName(taken.from)} → ${stateName(taken.to)} on ${taken.epsilon ? 'ε' : taken.guard}` : `in ${stateName(q)}`);
+    }
+  }
+
+  /** @param {string} before @param {string} after @param {string} name */
+  mark(before, after, name) {
+    this.root.querySelector(`[id="${before}"]`)?.classList.remove(name);
+    this.root.querySelector(`[id="${after}"]`)?.classList.add(name);
+  }
+}

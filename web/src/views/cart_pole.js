@@ -1,0 +1,130 @@
+// @ts-check
+// Paints a cart with a pole on its track: bands on the ground, the lean that is still safe as a wedge, the force as an arrow.
+
+import { isUnsafe, nameTag, projection } from './ground.js';
+
+/** @typedef {import('../protocol.js').Scene} Scene */
+/** @typedef {Extract<import('../protocol.js').Body, { kind: 'cart_pole' }>} Cart */
+/** @typedef {import('./stage.js').Colours} Colours */
+
+export class CartPole {
+  /**
+   * @param {Scene} scene
+   * @param {Cart} cart
+   * @param {import('../protocol.js').Proposition[]} propositions
+   */
+  constructor(scene, cart, propositions) {
+    this.scene = scene;
+    this.cart = cart;
+    this.propositions = propositions;
+    this.aspect = 1.35;
+  }
+
+  /** @type {import('./stage.js').Painter['paint']} */
+  paint(context, width, height, moment, colours) {
+    const to = projection(this.scene.ground, width, height);
+    context.fillStyle = colours.paper;
+    context.fillRect(0, 0, width, height);
+    const [, floor] = to.point(0, 0);
+    for (const region of this.scene.regions) this.band(context, to, region, floor, width, height, moment, colours);
+
+    context.strokeStyle = colours.ink;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.moveTo(0, floor);
+    context.lineTo(width, floor);
+    context.stroke();
+
+    const x = moment.state[this.cart.position];
+    const angle = moment.state[this.cart.angle];
+    const [cx] = to.point(x, 0);
+    const length = to.size(this.cart.pole_length);
+    const [cartWidth, cartHeight] = [to.size(0.5), to.size(0.2)];
+    const hinge = floor - cartHeight;
+
+    this.wedge(context, cx, hinge, length, colours);
+    // The tip of the pole over the last moments.
+    const tips = moment.trail.slice(-60);
+    context.fillStyle = colours.accent;
+    tips.forEach((s, k) => {
+      const [tx] = to.point(s[this.cart.position], 0);
+      context.globalAlpha = (0.35 * (k + 1)) / tips.length;
+      context.beginPath();
+      context.arc(tx + length * Math.sin(s[this.cart.angle]), hinge - length * Math.cos(s[this.cart.angle]), 1.6, 0, 2 * Math.PI);
+      context.fill();
+    });
+    context.globalAlpha = 1;
+
+    context.strokeStyle = colours.accent;
+    context.lineWidth = Math.max(5, to.size(0.06));
+    context.lineCap = 'round';
+    context.beginPath();
+    context.moveTo(cx, hinge);
+    context.lineTo(cx + length * Math.sin(angle), hinge - length * Math.cos(angle));
+    context.stroke();
+
+    context.fillStyle = colours.ink;
+    context.beginPath();
+    context.roundRect(cx - cartWidth / 2, hinge, cartWidth, cartHeight - 4, 4);
+    context.fill();
+    for (const side of [-0.3, 0.3]) {
+      context.beginPath();
+      context.arc(cx + side * cartWidth, floor - 4, 4, 0, 2 * Math.PI);
+      context.fill();
+    }
+    this.force(context, cx, hinge + cartHeight / 2 - 2, cartWidth, moment.action[0] ?? 0, colours);
+  }
+
+  /** @param {CanvasRenderingContext2D} context @param {import('./ground.js').Projection} to @param {import('../protocol.js').Region} region @param {number} floor @param {number} width @param {number} height @param {import('./stage.js').Moment} moment @param {Colours} colours */
+  band(context, to, region, floor, width, height, moment, colours) {
+    const { shape } = region;
+    if (shape.kind !== 'band' || shape.channel !== this.cart.position) return;
+    const name = this.propositions[region.proposition].name;
+    const left = Math.max(0, to.point(shape.low, 0)[0]);
+    const right = Math.min(width, to.point(shape.high, 0)[0]);
+    if (right <= left) return;
+    const holds = moment.holds(region.proposition);
+    const tint = isUnsafe(name) ? colours.unsafe : colours.regions[region.proposition % colours.regions.length];
+    context.fillStyle = tint;
+    context.globalAlpha = isUnsafe(name) ? 0.14 : holds ? 0.34 : 0.12;
+    context.fillRect(left, 0, right - left, floor);
+    context.globalAlpha = 1;
+    context.fillRect(left, floor, right - left, holds && !isUnsafe(name) ? 10 : 6);
+    nameTag(context, (left + right) / 2, Math.min(floor + 22, height - 10), name, colours);
+  }
+
+  /** The lean within which the pole is safe, where the scene says so. @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} length @param {Colours} colours */
+  wedge(context, x, y, length, colours) {
+    const limits = this.scene.regions.map((r) => r.shape).filter((s) => s.kind === 'band' && s.channel === this.cart.angle);
+    const lean = Math.min(...limits.map((s) => (s.kind === 'band' ? Math.min(Math.abs(s.low), Math.abs(s.high)) : Infinity)));
+    if (!Number.isFinite(lean)) return;
+    context.setLineDash([3, 5]);
+    context.strokeStyle = colours.unsafe;
+    context.lineWidth = 1.2;
+    context.beginPath();
+    for (const side of [-1, 1]) {
+      context.moveTo(x, y);
+      context.lineTo(x + side * length * 1.08 * Math.sin(lean), y - length * 1.08 * Math.cos(lean));
+    }
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} cartWidth @param {number} force  −1 … 1 @param {Colours} colours */
+  force(context, x, y, cartWidth, force, colours) {
+    const length = force * cartWidth * 1.2;
+    if (Math.abs(length) < 2) return;
+    const side = Math.sign(force);
+    const start = x + (side * cartWidth) / 2 + side * 3;
+    const end = start + length;
+    context.strokeStyle = colours.soft;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(start, y);
+    context.lineTo(end, y);
+    context.moveTo(end - side * 5, y - 4);
+    context.lineTo(end, y);
+    context.lineTo(end - side * 5, y + 4);
+    context.stroke();
+  }
+}

@@ -1,0 +1,77 @@
+// @ts-check
+// The lower panels: statistics of the modules, the hyper-parameters in force, an evaluation as it fills.
+
+import { brief, count, element } from '../dom.js';
+
+/** @typedef {import('../protocol.js').ModuleStatistics} ModuleStatistics */
+/** @typedef {import('../protocol.js').EvaluationProgress} EvaluationProgress */
+/** @typedef {import('../protocol.js').Setting} Setting */
+
+/** @param {string[]} heads @param {(string | Node)[][]} rows */
+function table(heads, rows) {
+  return element('table', {},
+    element('thead', {}, element('tr', {}, ...heads.map((h) => element('th', { scope: 'col' }, h)))),
+    element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((c) => element('td', {}, c))))));
+}
+
+export class Modules {
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    this.root = root;
+    this.last = '';
+  }
+
+  /** @param {ModuleStatistics[]} modules */
+  update(modules) {
+    const rows = modules.map((m) => [m.name, count(m.visits), `${Math.round((100 * m.replay) / Math.max(1, m.capacity))} %`, count(m.updates), brief(m.critic), brief(m.actor)]);
+    const text = JSON.stringify(rows);
+    if (text === this.last) return;
+    this.last = text;
+    this.root.replaceChildren(table(['module', 'visits', 'replay', 'updates', 'critic loss', 'actor loss'], rows));
+  }
+}
+
+export class Settings {
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    this.root = root;
+  }
+
+  /** @param {Setting[]} settings */
+  show(settings) {
+    this.root.replaceChildren(table(['key', 'value'], settings.map((s) => [s.key, s.value])));
+  }
+}
+
+/** @param {number} share */
+export const percent = (share) => `${brief(Math.round(share * 1000) / 10)} %`;
+
+export class Evaluation {
+  /** @param {HTMLElement} root */
+  constructor(root) {
+    this.root = root;
+    this.clear();
+  }
+
+  clear() {
+    this.root.replaceChildren(element('p', { className: 'note' }, 'Greedy episodes with fresh starts: how many satisfy the task, with a 95 % Clopper–Pearson interval.'));
+  }
+
+  /** @param {EvaluationProgress} progress */
+  update(progress) {
+    const { runs, wanted, successes, low, high } = progress;
+    const band = element('div', { className: 'band' });
+    band.style.left = `${low * 100}%`;
+    band.style.width = `${(high - low) * 100}%`;
+    const point = element('div', { className: 'point' });
+    point.style.left = `calc(${(runs > 0 ? successes / runs : 0) * 100}% - 1.5px)`;
+    this.root.replaceChildren(
+      element('p', { className: 'verdict', role: runs === wanted ? 'status' : 'presentation' }, `${successes} of ${runs} runs succeed`),
+      element('div', { className: 'interval', role: 'img', 'aria-label': `95 % interval from ${percent(low)} to ${percent(high)}` }, band, point),
+      element('dl', { className: 'facts' },
+        element('dt', {}, '95 % interval'), element('dd', {}, `${percent(low)} to ${percent(high)}`),
+        element('dt', {}, 'rounds, mean'), element('dd', {}, brief(progress.rounds_mean)),
+        element('dt', {}, 'ended in a sink'), element('dd', {}, percent(progress.sink_rate)),
+        element('dt', {}, 'runs'), element('dd', {}, `${runs} of ${wanted}, seed ${progress.seed}`)));
+  }
+}

@@ -1,0 +1,242 @@
+// @ts-check
+/// <reference lib="webworker" />
+// The worker: owns one session and the clock. Trains in slices of about 16 ms and listens to commands between them.
+
+import init, { Session, builtin_tasks, check_formula, check_hoa } from '../pkg/ltl_rover.js';
+import { END, Frame, located } from './protocol.js';
+
+/** @typedef {import('./protocol.js').Command} Command */
+/** @typedef {import('./protocol.js').Reply} Reply */
+/** @typedef {import('./protocol.js').OpenRequest} OpenRequest */
+
+const scope = /** @type {DedicatedWorkerGlobalScope} */ (/** @type {unknown} */ (globalThis));
+
+/** How long a slice of work may take before messages are heard again, in milliseconds. */
+const SLICE = 16;
+/** How often curves and statistics are sent while training, in milliseconds. */
+const TELEMETRY = 250;
+
+/** @type {Session | null} */
+let session = null;
+/** @type {Frame | null} */
+let frame = null;
+/** Every open, train, pause and step raises it; a loop of an older generation ends. */
+let generation = 0;
+/** The generation of the session: frames of a session that was replaced are not shown. */
+let opened = 0;
+let training = false;
+/** Environment steps a second, measured over the last half second. */
+let rate = 0;
+
+/**
+ * @param {Reply} reply
+ * @param {Transferable[]} [transfer]
+ */
+const tell = (reply, transfer = []) => scope.postMessage(reply, transfer);
+
+const channel = new MessageChannel();
+/** @type {(() => void)[]} */
+const waiting = [];
+channel.port1.onmessage = () => waiting.shift()?.();
+/** Lets messages in, without the 4 ms that nested timers cost. */
+const breathe = () => new Promise((resolve) => {
+  waiting.push(() => resolve(undefined));
+  channel.port2.postMessage(0);
+});
+/** @param {number} ms */
+const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+function present() {
+  if (!session) throw new Error('no task is open');
+  return session;
+}
+
+function sendFrame() {
+  const data = present().frame();
+  tell({ kind: 'frame', generation: opened, data }, [data.buffer]);
+}
+
+function sendTelemetry() {
+  const open = present();
+  tell({ kind: 'telemetry', generation: opened, rate, training, curves: open.curves(), modules: open.statistics() });
+}
+
+/**
+ * Trains until another command takes over.
+ * @param {number} mine
+ * @param {number} pace  steps a second; 0: as fast as possible
+ */
+async function train(mine, pace) {
+  const open = present();
+  let chunk = 8;
+  let counted = 0;
+  let since = performance.now();
+  let reported = since;
+  let due = 0;
+  let last = since;
+  while (mine === generation) {
+    const start = performance.now();
+    if (pace > 0) {
+      due = Math.min(due + ((start - last) * pace) / 1000, Math.max(1, pace / 10));
+      last = start;
+      const whole = Math.floor(due);
+      if (whole > 0) counted += open.advance(whole);
+      due -= whole;
+    } else {
+      // Several calls a slice, each a quarter of it, so that a slow step is noticed in time.
+      do {
+        const before = performance.now();
+        counted += open.advance(chunk);
+        const spent = performance.now() - before;
+        chunk = Math.max(1, Math.min(4096, Math.round(spent > 0 ? (chunk * SLICE) / 4 / spent : chunk * 2)));
+      } while (performance.now() - start < SLICE - 2);
+    }
+    const now = performance.now();
+    if (now - since > 500) {
+      rate = (counted * 1000) / (now - since);
+      counted = 0;
+      since = now;
+    }
+    sendFrame();
+    if (now - reported > TELEMETRY) {
+      reported = now;
+      sendTelemetry();
+    }
+    await (pace > 0 ? sleep(Math.max(SLICE, 1000 / pace / 2)) : breathe());
+  }
+}
+
+/**
+ * A rollout or an evaluation in slices; the last progress, or `null` when another command took over.
+ * @param {number} mine
+ * @param {number} runs
+ */
+async function evaluate(mine, runs) {
+  const open = present();
+  const evaluation = open.evaluation(runs);
+  try {
+    for (;;) {
+      if (mine !== generation || session !== open) return null;
+      const start = performance.now();
+      let more = true;
+      do more = evaluation.advance(64);
+      while (more && performance.now() - start < SLICE - 2);
+      const progress = evaluation.progress();
+      tell({ kind: 'evaluation', generation: opened, progress });
+      if (!more) return progress;
+      await breathe();
+    }
+  } finally {
+    evaluation.free();
+  }
+}
+
+/** @param {Session} next */
+function replace(next) {
+  generation++;
+  opened++;
+  training = false;
+  rate = 0;
+  session?.free();
+  session = next;
+  const description = next.describe();
+  frame = new Frame(description.layout);
+  return { generation: opened, description };
+}
+
+function stop() {
+  generation++;
+  training = false;
+  rate = 0;
+}
+
+/** @param {() => void} advance */
+function single(advance) {
+  stop();
+  advance();
+  sendFrame();
+  sendTelemetry();
+}
+
+/**
+ * @param {Command} command
+ * @returns {unknown}
+ */
+function obey(command) {
+  switch (command.kind) {
+    case 'open': {
+      const { task, formula, hoa, seed, preset, overrides } = command.request;
+      const result = replace(Session.open({ task, formula, hoa, preset, overrides, seed: BigInt(seed) }));
+      sendFrame();
+      sendTelemetry();
+      return result;
+    }
+    case 'restore': {
+      const result = replace(Session.restore(command.bytes));
+      sendFrame();
+      sendTelemetry();
+      return result;
+    }
+    case 'train': {
+      present();
+      stop();
+      training = true;
+      train(generation, command.pace).catch(fail);
+      return null;
+    }
+    case 'pause':
+      stop();
+      if (session) sendTelemetry();
+      return null;
+    case 'step':
+      single(() => present().advance(1));
+      return null;
+    case 'episode':
+      single(() => {
+        const open = present();
+        const counters = /** @type {Frame} */ (frame);
+        do open.advance(1);
+        while (counters.at(open.frame(), 0).number('end') === END.running);
+      });
+      return null;
+    case 'rollout': {
+      const episode = present().rollout(BigInt(command.index));
+      return { generation: opened, episode };
+    }
+    case 'evaluate':
+      stop();
+      sendTelemetry();
+      return evaluate(generation, command.runs);
+    case 'check_formula':
+      return check_formula(command.text);
+    case 'check_hoa':
+      return check_hoa(command.text);
+    case 'save':
+      return present().save(command.replay);
+  }
+}
+
+/** @param {unknown} error */
+function fail(error) {
+  stop();
+  tell({ kind: 'broken', message: located(error).message });
+}
+
+scope.addEventListener('message', async (event) => {
+  const { id, command } = /** @type {{ id: number, command: Command }} */ (event.data);
+  try {
+    const value = await obey(command);
+    tell({ kind: 'done', id, value });
+  } catch (error) {
+    // A trap leaves the module in an unknown state: the page starts another worker.
+    if (error instanceof WebAssembly.RuntimeError) fail(error);
+    tell({ kind: 'failed', id, error: located(error) });
+  }
+});
+
+try {
+  await init();
+  tell({ kind: 'ready', tasks: builtin_tasks() });
+} catch (error) {
+  fail(error);
+}
