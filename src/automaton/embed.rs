@@ -8,7 +8,10 @@
 //! **\[D2\] The frontier rule.** Taken to the letter, equation 1 leaves T = ∅ after a round, and the next visit to an accepting set
 //! refills T without being accepting itself. With one accepting set that rewards one visit ever; with two it makes F_1^P
 //! transient under the run 1, 2, 1, 2, …, against the paper's own Lemma 1. [`FrontierRule::Refill`] refills at once, by the visit
-//! that empties T; [`FrontierRule::Printed`] is the letter.
+//! that empties T; [`FrontierRule::Printed`] is the letter. Of the sets that this visit belongs to, only those that it took from T
+//! are left out of the new T. Leaving out all of them would break Lemma 1 again where accepting sets overlap: visits to
+//! {F_1, F_3} and {F_1, F_2} in turn would never find F_1 in T. As it is, every set is taken from T at least once between one
+//! refilling visit and the next, both included, which proves the lemma.
 //!
 //! **Order** (Algorithm 2, lines 10–12): what a visit earns is decided by T and T_Φ from before it; then T ← f_V, then T_Φ ← f_Φ.
 //! Where the cases of f_Φ overlap (q' ∈ T_Φ and B), the reset goes first: the text resets T_Φ whenever B becomes true.
@@ -84,8 +87,8 @@ pub struct EmbeddedState {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FrontierRule {
-    /// The visit that empties T ends the round: B is true and T becomes F without the sets just visited, or all of F if
-    /// that is empty. T is never empty. \[D2\]
+    /// The visit that empties T ends the round: B is true and T becomes F without the sets that this visit took from T, or all
+    /// of F if that is empty. T is never empty. \[D2\]
     #[default]
     Refill,
     /// Equation 1 of [Cai et al. 2021](crate::bib::Cai2021) to the letter: T stays empty until the next visit, which refills it
@@ -205,7 +208,7 @@ impl Embedding {
         let hit = left != frontier;
         match self.rule {
             FrontierRule::Refill if hit && left.0 == 0 => {
-                let others = all.0 & !visited.0;
+                let others = all.0 & !(visited.0 & frontier.0);
                 (if others == 0 { all } else { Marks(others) }, true)
             }
             FrontierRule::Refill => (left, false),
