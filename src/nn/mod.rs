@@ -4,6 +4,7 @@
 //! implementations start from the same [`initial_tensors`], hold the same named tensors and exchange them as a [`Record`].
 
 mod actor_critic;
+pub mod fused;
 pub mod plain;
 mod record;
 mod tensors;

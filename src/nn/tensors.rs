@@ -7,6 +7,9 @@ use crate::rng::Rng;
 /// ([Lillicrap et al. 2016](crate::bib::Lillicrap2016), section 7: 3·10⁻³), which keeps first actions and values near 0.
 const OUTPUT_INITIAL: f32 = 3e-3;
 
+/// Added to a variance before the square root of layer norm.
+pub const NORM_EPSILON: f64 = 1e-5;
+
 /// Which network of a module.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Role {

@@ -1,10 +1,7 @@
 //! One plain fully connected network: forward with a trace, backward through it, one number at a time in double precision.
 
 use super::super::actor_critic::NetworkTensor;
-use super::super::tensors::Widths;
-
-/// Added to a variance before the square root of layer norm.
-pub const NORM_EPSILON: f64 = 1e-5;
+use super::super::tensors::{NORM_EPSILON, Widths};
 
 /// What the output layer ends with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
