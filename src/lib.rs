@@ -21,4 +21,5 @@ pub mod ltl;
 pub mod nn;
 pub mod product;
 pub mod rng;
+pub mod task;
 pub mod train;

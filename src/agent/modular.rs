@@ -24,7 +24,7 @@ use super::replay::Replay;
 use super::settings::{LearnerSettings, UpdatedModule};
 use super::trace::Trace;
 use crate::automaton::{EmbeddedState, Embedding, Marks};
-use crate::nn::{ActorCritic, Batch, Losses, NetworkShape, OptimiserSettings};
+use crate::nn::{ActorCritic, Batch, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
 use crate::product::{Chosen, MoveKind, ProductStep, Reward};
 use crate::rng::{Purpose, Rng};
 use std::sync::Arc;
@@ -132,6 +132,22 @@ impl ModularDdpg {
     /// Samples in all replays.
     pub fn samples(&self) -> usize {
         self.modules.iter().map(|m| m.replay.len()).sum()
+    }
+
+    /// The networks of each module, without optimisers.
+    pub fn policy(&self) -> Vec<Vec<NetworkTensor>> {
+        self.modules.iter().map(|m| m.networks.tensors(false)).collect()
+    }
+
+    /// Takes over networks that [`ModularDdpg::policy`] gave.
+    ///
+    /// # Errors
+    /// A sentence naming what does not fit. Modules before it are changed then.
+    pub fn load_policy(&mut self, policy: &[Vec<NetworkTensor>]) -> Result<(), String> {
+        if policy.len() != self.modules.len() {
+            return Err(format!("the policy has {} modules, the learner {}", policy.len(), self.modules.len()));
+        }
+        self.modules.iter_mut().zip(policy).try_for_each(|(module, tensors)| module.networks.load(tensors))
     }
 
     /// Q(x, π(x)) of the module in charge, in units of unscaled rewards; `None` in a sink.

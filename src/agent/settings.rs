@@ -62,10 +62,8 @@ pub struct LearnerSettings {
     /// Width of each hidden layer of actor and critic.
     pub hidden: Vec<usize>,
     /// One critic per module, or two whose smaller value counts.
-    #[cfg_attr(feature = "cli", schemars(with = "String"))]
     pub critics: Critics,
     /// Which networks normalise their hidden layers.
-    #[cfg_attr(feature = "cli", schemars(with = "String"))]
     pub layer_norm: LayerNorm,
     /// Learning rate of the actors.
     pub actor_rate: Schedule,

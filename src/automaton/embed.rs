@@ -84,6 +84,7 @@ pub struct EmbeddedState {
 }
 
 /// How T is updated when accepting sets are visited.
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FrontierRule {

@@ -56,6 +56,7 @@ impl NetworkShape {
 }
 
 /// How many critics a module trains.
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Critics {
@@ -68,6 +69,7 @@ pub enum Critics {
 }
 
 /// Where hidden layers are normalised between the affine map and the ReLU ([Ba et al. 2016](crate::bib::Ba2016)).
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LayerNorm {

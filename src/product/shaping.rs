@@ -11,6 +11,7 @@ use crate::automaton::{EmbeddedState, StateSet, StateTracking};
 use serde::{Deserialize, Serialize};
 
 /// A potential Φ. `weight` is η_Φ ≥ 0; potentials are multiples of η_Φ(1 − r_F), one first reward of an accepting set.
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[derive(Clone, Copy, PartialEq, Default, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "kind", deny_unknown_fields)]
 pub enum Shaping {

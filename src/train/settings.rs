@@ -40,7 +40,6 @@ pub struct TrainingSettings {
     /// are bootstrapped through it.
     pub max_steps: u32,
     /// Where the environment starts.
-    #[cfg_attr(feature = "cli", schemars(with = "String"))]
     pub start: Start,
     /// Where the automaton starts.
     pub embedded_start: EmbeddedStart,

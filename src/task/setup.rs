@@ -1,0 +1,158 @@
+//! A task with one recipe and its automaton: everything that training needs, checked, so that from here on nothing fails.
+
+use super::error::{TaskError, did_you_mean};
+use super::parse::{Override, Task};
+use super::parts::{environment, environments};
+use super::preset::Preset;
+use crate::agent::{Engine, ModularDdpg, Sizes};
+use crate::automaton::{Embedding, Ldgba};
+use crate::eval::{Rollout, RolloutSettings};
+use crate::nn::{ActorCritic, NetworkShape, plain::Plain};
+use crate::product::{EpMdp, LdgbaReward, Reward};
+use crate::rng::Rng;
+use crate::train::{Run, Trainer, TrainingSettings};
+use std::sync::Arc;
+
+/// The most parameters that the networks of a learner may have together.
+const MAX_PARAMETERS: usize = 100_000_000;
+
+/// A task, a recipe and an automaton.
+pub struct Setup {
+    task: Task,
+    preset_name: String,
+    preset: Preset,
+    hoa: Option<String>,
+    product: EpMdp,
+    reward: Arc<dyn Reward>,
+}
+
+/// The fast networks.
+fn engine(shape: &NetworkShape, rng: &mut Rng) -> Box<dyn ActorCritic> {
+    Box::new(Plain::new(shape, rng))
+}
+
+impl Setup {
+    /// Joins a task, one of its presets and an automaton that accepts its formula.
+    ///
+    /// # Errors
+    /// An unknown environment, propositions that it does not have, or settings that do not go with the automaton.
+    pub fn with_automaton(
+        task: Task,
+        preset_name: &str,
+        overrides: &[Override],
+        automaton: Arc<Ldgba>,
+    ) -> Result<Setup, TaskError> {
+        let preset = task.preset(preset_name, overrides)?;
+        let error = |path: &[&str], message: String| TaskError::new(&task.name, &task.text, task.place(path), message);
+        let wanted = &task.file.environment.name;
+        let environment = environment(wanted).ok_or_else(|| {
+            let known: Vec<&str> = environments().collect();
+            error(&["environment", "name"], format!("there is no environment `{wanted}`; known are `{}`", known.join("`, `")))
+                .with_help(did_you_mean(wanted, known))
+        })?;
+        let section = &preset.product;
+        let product_path = ["presets", preset_name, "product"];
+        let embedding = Embedding::new(automaton, section.frontier, section.shaping.tracking())
+            .map_err(|e| error(&product_path, e.to_string()))?;
+        let embedding = Arc::new(embedding);
+        let reward = LdgbaReward::new(section.reward(), &embedding).map_err(|e| error(&product_path, e.to_string()))?;
+        let product = EpMdp::new(environment, embedding, &task.file.specification.labels)
+            .map_err(|e| error(&["specification", "labels"], e.to_string()))?;
+        let setup = Setup { preset_name: preset_name.to_owned(), preset, hoa: None, product, reward: Arc::new(reward), task };
+        setup.check_modules()?;
+        Ok(setup)
+    }
+
+    /// Whether the modules can be numbered and their networks fit into memory.
+    fn check_modules(&self) -> Result<(), TaskError> {
+        let path = ["presets", &self.preset_name, "learner", "modules"];
+        let error = |message| TaskError::new(&self.task.name, &self.task.text, self.task.place(&path), message);
+        let learner = &self.preset.learner;
+        let modules = crate::agent::Modules::new(learner.modules, self.product.embedding()).map_err(|e| error(e.to_string()))?;
+        let sizes = self.sizes();
+        let input = crate::agent::Encoder::new(learner.modules, self.product.embedding(), sizes.observation).len();
+        let shape = NetworkShape::new(input, sizes.control, &learner.hidden);
+        let one: usize = crate::nn::tensor_shapes(&shape, true).iter().map(|(_, s)| s.iter().product::<usize>()).sum();
+        if one.saturating_mul(modules.len()) > MAX_PARAMETERS {
+            return Err(error(format!(
+                "{} modules with networks of these sizes hold {} numbers; allowed are {MAX_PARAMETERS}",
+                modules.len(),
+                one.saturating_mul(modules.len())
+            )));
+        }
+        Ok(())
+    }
+
+    fn sizes(&self) -> Sizes {
+        let spec = self.product.environment().spec();
+        Sizes { observation: spec.observation, control: spec.action.len() }
+    }
+
+    /// The task.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// The name of the preset.
+    pub fn preset_name(&self) -> &str {
+        &self.preset_name
+    }
+
+    /// The preset, with overrides in place.
+    pub fn preset(&self) -> &Preset {
+        &self.preset
+    }
+
+    /// The text of the automaton in the HOA format, if it was given in that.
+    pub fn hoa(&self) -> Option<&str> {
+        self.hoa.as_deref()
+    }
+
+    /// A fresh product.
+    pub fn product(&self) -> EpMdp {
+        self.product.clone()
+    }
+
+    /// The automaton.
+    pub fn automaton(&self) -> &Arc<Ldgba> {
+        self.product.embedding().automaton()
+    }
+
+    /// The reward.
+    pub fn reward(&self) -> &Arc<dyn Reward> {
+        &self.reward
+    }
+
+    /// How policies are judged.
+    pub fn rollout_settings(&self) -> RolloutSettings {
+        let evaluation = &self.task.file.evaluation;
+        RolloutSettings { max_steps: evaluation.max_steps, start: evaluation.start }
+    }
+
+    /// An episode from a start drawn from `seed`, to be played by any policy.
+    pub fn rollout(&self, seed: u64) -> Rollout {
+        Rollout::new(self.product(), self.reward.clone(), self.rollout_settings(), seed)
+    }
+
+    /// A fresh learner.
+    pub fn learner(&self, seed: u64) -> ModularDdpg {
+        let start: (Engine, u64) = (engine, seed);
+        let (embedding, reward) = (self.product.embedding().clone(), self.reward.clone());
+        ModularDdpg::new(self.preset.learner.clone(), embedding, reward, self.sizes(), start)
+            .expect("the modules were numbered when this was made")
+    }
+
+    /// A fresh trainer.
+    pub fn trainer(&self, seed: u64) -> Trainer {
+        let mut settings: TrainingSettings = self.preset.training;
+        if settings.max_steps == 0 {
+            settings.max_steps = self.task.file.evaluation.max_steps;
+        }
+        Trainer::new(self.product(), self.learner(seed), self.reward.clone(), settings, seed)
+    }
+
+    /// A fresh run: a trainer with evaluations.
+    pub fn run(&self, seed: u64) -> Run {
+        Run::new(self.trainer(seed), self.rollout(seed), seed)
+    }
+}
