@@ -178,6 +178,14 @@ impl Guard {
         missing(&cubes, effort).map(|cube| cube.map(|c| Labels(c.positive)))
     }
 
+    /// Whether all letters of `other` are among its own.
+    ///
+    /// # Errors
+    /// [`TooComplex`].
+    pub fn includes(&self, other: &Guard, effort: &mut Effort) -> Result<bool, TooComplex> {
+        covers(&self.0, &other.0, effort)
+    }
+
     /// Whether both have the same letters.
     ///
     /// # Errors
@@ -365,6 +373,7 @@ mod tests {
             prop_assert_eq!(letters(&a.complement(effort).unwrap()), zip(|x, _| !x));
             prop_assert_eq!(letters(&a.minimised()), la.clone());
             prop_assert_eq!(a.same(&b, effort).unwrap(), la == lb);
+            prop_assert_eq!(a.includes(&b, effort).unwrap(), !zip(|x, y| y && !x).contains(&true));
             let overlap = a.overlap(&b, effort).unwrap();
             prop_assert_eq!(overlap.is_some(), zip(|x, y| x && y).contains(&true));
             prop_assert!(overlap.is_none_or(|sigma| a.contains(sigma) && b.contains(sigma)));

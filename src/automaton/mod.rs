@@ -3,6 +3,7 @@
 mod construct;
 mod embed;
 mod guard;
+pub mod hoa;
 mod ldgba;
 mod scc;
 mod word;

@@ -1,0 +1,136 @@
+//! The letters of a state cut into classes, each with the one or several edges that may be taken.
+
+use super::super::guard::{Cube, Effort, Guard, TooComplex};
+use super::super::ldgba::Marks;
+use super::nba::NbaEdge;
+
+/// Letters that a state treats alike: no two edges of the class lead to the same state.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Class {
+    pub guard: Guard,
+    pub targets: Vec<(usize, Marks)>,
+}
+
+impl Class {
+    /// Adds an edge. Two edges with a letter and a target in common become one with the marks of both: a run that passes them
+    /// infinitely often may take either in turn, and one visit more or less does not matter.
+    fn add(&mut self, target: usize, marks: Marks) {
+        match self.targets.iter_mut().find(|(t, _)| *t == target) {
+            Some((_, known)) => *known = known.union(marks),
+            None => self.targets.push((target, marks)),
+        }
+    }
+}
+
+/// The classes of a state with these edges; letters without an edge are in none.
+pub(super) fn classes(edges: &[NbaEdge], effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
+    let merged = merge(edges.iter().map(|edge| (&edge.guard, (edge.target, edge.marks))));
+    if disjoint(&merged, effort)? {
+        return Ok(merged.into_iter().map(|(guard, target)| Class { guard, targets: vec![target] }).collect());
+    }
+    let edges = merged.into_iter().map(|(guard, target)| Class { guard, targets: vec![target] }).collect();
+    refine(edges, effort)
+}
+
+/// Cuts overlapping classes into disjoint ones, each with the targets of all that had its letters.
+pub(super) fn refine(overlapping: Vec<Class>, effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
+    let mut done: Vec<Class> = Vec::new();
+    for edge in overlapping {
+        let mut rest = edge.guard.clone();
+        let mut outside = None;
+        for i in 0..done.len() {
+            if rest.0.is_empty() {
+                break;
+            }
+            let common = done[i].guard.and(&rest, effort)?;
+            if common.0.is_empty() {
+                continue;
+            }
+            let not_edge = match &outside {
+                Some(guard) => guard,
+                None => outside.insert(edge.guard.complement(effort)?),
+            };
+            let kept = done[i].guard.and(not_edge, effort)?;
+            rest = rest.and(&done[i].guard.complement(effort)?, effort)?;
+            if !kept.0.is_empty() {
+                let targets = done[i].targets.clone();
+                done.push(Class { guard: kept, targets });
+            }
+            done[i].guard = common;
+            for (target, marks) in &edge.targets {
+                done[i].add(*target, *marks);
+            }
+        }
+        if !rest.0.is_empty() {
+            done.push(Class { guard: rest, targets: edge.targets });
+        }
+        if done.len() > Guard::MAX_CUBES {
+            return Err(TooComplex);
+        }
+    }
+    Ok(done)
+}
+
+/// One guard per target, in the order of first appearance.
+fn merge<'a>(edges: impl Iterator<Item = (&'a Guard, (usize, Marks))>) -> Vec<(Guard, (usize, Marks))> {
+    let mut merged: Vec<(Guard, (usize, Marks))> = Vec::new();
+    let mut index = std::collections::HashMap::new();
+    for (guard, target) in edges {
+        let position = *index.entry(target).or_insert_with(|| {
+            merged.push((Guard::never(), target));
+            merged.len() - 1
+        });
+        let cubes: &mut Vec<Cube> = &mut merged[position].0.0;
+        cubes.extend(guard.0.iter().copied());
+    }
+    merged
+}
+
+fn disjoint(edges: &[(Guard, (usize, Marks))], effort: &mut Effort) -> Result<bool, TooComplex> {
+    for (i, (guard, _)) in edges.iter().enumerate() {
+        for (other, _) in &edges[..i] {
+            if guard.overlap(other, effort)?.is_some() {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::labels::Labels;
+    use crate::ltl::Span;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_letter_keeps_its_targets(edges in proptest::collection::vec((0u64..8, 0u64..8, 0usize..4, 0u32..4), 0..6)) {
+            let span = Span { start: 0, end: 0 };
+            let edges: Vec<NbaEdge> = edges
+                .into_iter()
+                .map(|(p, n, target, marks)| {
+                    NbaEdge { guard: Guard(vec![Cube { positive: p, negative: n & !p }]), target, marks: Marks(marks), span }
+                })
+                .collect();
+            let found = classes(&edges, &mut Effort::default()).unwrap();
+            for sigma in (0..8).map(Labels) {
+                let mut expected: Vec<(usize, u32)> = Vec::new();
+                for edge in edges.iter().filter(|edge| edge.guard.contains(sigma)) {
+                    match expected.iter_mut().find(|(t, _)| *t == edge.target) {
+                        Some((_, marks)) => *marks |= edge.marks.0,
+                        None => expected.push((edge.target, edge.marks.0)),
+                    }
+                }
+                let mut here = found.iter().filter(|class| class.guard.contains(sigma));
+                let mut actual: Vec<(usize, u32)> =
+                    here.next().map(|class| class.targets.iter().map(|(t, m)| (*t, m.0)).collect()).unwrap_or_default();
+                prop_assert!(here.next().is_none());
+                expected.sort();
+                actual.sort();
+                prop_assert_eq!(actual, expected);
+            }
+        }
+    }
+}
