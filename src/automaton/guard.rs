@@ -1,5 +1,6 @@
 //! Sets of letters as disjunctions of cubes: intersection, complement, cover and overlap checks, short readable text.
 
+use super::cover::{absorbed, complement, covers, minimise, missing};
 use crate::labels::{Labels, Propositions};
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +57,7 @@ impl Cube {
 
     /// Without the literal on proposition `index`.
     #[must_use]
-    fn without(self, index: u32) -> Cube {
+    pub(super) fn without(self, index: u32) -> Cube {
         Cube { positive: self.positive & !(1 << index), negative: self.negative & !(1 << index) }
     }
 }
@@ -216,135 +217,6 @@ impl Guard {
         let cubes: Vec<String> = self.minimised().0.iter().map(conjunction).collect();
         if cubes.is_empty() { "false".into() } else { cubes.join(" | ") }
     }
-}
-
-/// Without empty cubes and cubes that another one includes.
-fn absorbed(mut cubes: Vec<Cube>, effort: &mut Effort) -> Result<Guard, TooComplex> {
-    cubes.retain(|cube| !cube.is_empty());
-    cubes.sort_by_key(|cube| cube.support().count_ones());
-    let mut kept: Vec<Cube> = Vec::new();
-    for cube in cubes {
-        effort.spend(kept.len() + 1)?;
-        if !kept.iter().any(|k| k.includes(cube)) {
-            kept.push(cube);
-        }
-    }
-    if kept.len() > Guard::MAX_CUBES { Err(TooComplex) } else { Ok(Guard(kept)) }
-}
-
-/// The cubes given that proposition `index` has the truth value `value`.
-fn cofactor(cubes: &[Cube], index: u32, value: bool) -> Vec<Cube> {
-    let conflicts = |cube: &Cube| if value { cube.negative } else { cube.positive } >> index & 1 == 1;
-    cubes.iter().filter(|cube| !conflicts(cube)).map(|cube| cube.without(index)).collect()
-}
-
-/// The proposition to split on: the one that most cubes speak of, those of both signs first.
-fn split_index(cubes: &[Cube]) -> Option<(u32, bool)> {
-    let mut counts = [(0u32, 0u32); 64];
-    for cube in cubes {
-        for (index, (p, n)) in counts.iter_mut().enumerate() {
-            *p += (cube.positive >> index & 1) as u32;
-            *n += (cube.negative >> index & 1) as u32;
-        }
-    }
-    let (index, (p, n)) = counts.into_iter().enumerate().max_by_key(|(_, (p, n))| ((*p).min(*n) > 0, p + n))?;
-    (p + n > 0).then_some((index as u32, p > 0 && n > 0))
-}
-
-/// A cube of letters that none of `cubes` has; `None` if they cover all letters. Shannon expansion; a cover whose propositions
-/// all occur with one sign only covers everything just when one of its cubes has no literal.
-fn missing(cubes: &[Cube], effort: &mut Effort) -> Result<Option<Cube>, TooComplex> {
-    effort.spend(cubes.len() + 1)?;
-    if cubes.contains(&Cube::ANY) {
-        return Ok(None);
-    }
-    let Some((index, both_signs)) = split_index(cubes) else { return Ok(Some(Cube::ANY)) };
-    if !both_signs {
-        // Every proposition against its only sign.
-        return Ok(Some(
-            cubes
-                .iter()
-                .fold(Cube::ANY, |all, c| Cube { positive: all.positive | c.negative, negative: all.negative | c.positive }),
-        ));
-    }
-    for value in [false, true] {
-        if let Some(cube) = missing(&cofactor(cubes, index, value), effort)? {
-            return Ok(cube.and(Cube::literal(index as usize, value)));
-        }
-    }
-    Ok(None)
-}
-
-/// The letters that none of `cubes` has.
-fn complement(cubes: &[Cube], effort: &mut Effort) -> Result<Vec<Cube>, TooComplex> {
-    effort.spend(cubes.len() + 1)?;
-    if cubes.contains(&Cube::ANY) {
-        return Ok(Vec::new());
-    }
-    let Some((index, _)) = split_index(cubes) else { return Ok(vec![Cube::ANY]) };
-    let low = complement(&cofactor(cubes, index, false), effort)?;
-    let high = complement(&cofactor(cubes, index, true), effort)?;
-    effort.spend(low.len() * high.len() / 8 + low.len() + high.len())?;
-    let mut result = Vec::with_capacity(low.len() + high.len());
-    for (side, other, value) in [(&low, &high, false), (&high, &low, true)] {
-        for cube in side {
-            if !other.contains(cube) {
-                result.extend(cube.and(Cube::literal(index as usize, value)));
-            } else if !value {
-                result.push(*cube);
-            }
-        }
-    }
-    if result.len() > Guard::MAX_CUBES { Err(TooComplex) } else { Ok(result) }
-}
-
-/// Whether every letter of `inner` is one of `outer`.
-fn covers(outer: &[Cube], inner: &[Cube], effort: &mut Effort) -> Result<bool, TooComplex> {
-    for cube in inner {
-        if !cube.is_empty() && !covers_cube(outer, *cube, effort)? {
-            return Ok(false);
-        }
-    }
-    Ok(true)
-}
-
-/// Whether every letter of `cube` is one of `outer`.
-fn covers_cube(outer: &[Cube], cube: Cube, effort: &mut Effort) -> Result<bool, TooComplex> {
-    effort.spend(outer.len())?;
-    let inside: Vec<Cube> = outer
-        .iter()
-        .filter(|o| o.and(cube).is_some())
-        .map(|o| Cube { positive: o.positive & !cube.support(), negative: o.negative & !cube.support() })
-        .collect();
-    Ok(missing(&inside, effort)?.is_none())
-}
-
-/// Expand every cube while it stays inside the set, then drop the cubes that the rest covers.
-fn minimise(guard: &Guard, effort: &mut Effort) -> Result<Guard, TooComplex> {
-    let mut cubes = absorbed(guard.0.clone(), effort)?.0;
-    for i in 0..cubes.len() {
-        for index in 0..64 {
-            if cubes[i].support() >> index & 1 == 1 {
-                let wider = cubes[i].without(index);
-                if covers_cube(&cubes, wider, effort)? {
-                    cubes[i] = wider;
-                }
-            }
-        }
-    }
-    let mut cubes = absorbed(cubes, effort)?.0;
-    let mut i = cubes.len();
-    while i > 0 {
-        i -= 1;
-        let cube = cubes.remove(i);
-        if !covers_cube(&cubes, cube, effort)? {
-            cubes.insert(i, cube);
-        }
-    }
-    // Propositions in their order, positive before negative, for a stable text.
-    cubes.sort_by_key(|cube| (cube.support().reverse_bits(), cube.negative.reverse_bits()));
-    cubes.reverse();
-    Ok(Guard(cubes))
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! From a checked, partitioned automaton to the limit-deterministic one that the rest of the program uses.
 
-use super::super::construct::{Gaps, LdgbaError, LdgbaParts, SINK_NAME};
+use super::super::construct::{Gaps, LdgbaParts, SINK_NAME};
 use super::super::guard::Guard;
 use super::super::ldgba::{Edge, Ldgba, Marks, StateId};
+use super::super::ldgba_error::LdgbaError;
 use super::check::{Notes, check};
 use super::error::{Fault, HoaErrorKind};
 use super::jumps::{Node, Resolved, resolve};
