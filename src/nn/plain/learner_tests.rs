@@ -1,7 +1,9 @@
 //! The plain learner against finite differences and against arithmetic done by hand.
 
 use super::*;
-use crate::nn::{Critics, LayerNorm, Record, tensor_shapes};
+use crate::nn::actor_critic::{Critics, LayerNorm};
+use crate::nn::record::Record;
+use crate::nn::tensors::tensor_shapes;
 use crate::rng::Purpose;
 
 fn shapes() -> Vec<NetworkShape> {
