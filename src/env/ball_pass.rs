@@ -101,6 +101,7 @@ impl Environment for BallPass {
             ground: Ground { x: [0.0, SIDE], y: [0.0, SIDE], unit: "m".into(), y_axis: YAxis::Up },
             regions: vec![region(0), region(1)],
             body: Body::Ball { radius: BALL, position: [0, 1], velocity: [2, 3] },
+            hazard: None,
             picture: None,
         }
     }

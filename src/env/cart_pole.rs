@@ -125,6 +125,7 @@ impl Environment for CartPole {
                 band(2, "Fallen", 2, LEAN, 2.0 * LEAN),
             ],
             body: Body::CartPole { position: 0, angle: 2, pole_length: 2.0 * HALF_LENGTH },
+            hazard: None,
             picture: None,
         }
     }

@@ -7,11 +7,14 @@
 mod ball_pass;
 mod cart_pole;
 mod environment;
+pub mod map;
+mod rover;
 mod scene;
 mod trace;
 
 pub use ball_pass::BallPass;
 pub use cart_pole::CartPole;
 pub use environment::{Channel, EnvSpec, Environment, Outcome};
+pub use rover::Rover;
 pub use scene::{Body, Ground, Region, Scene, Shape, YAxis};
 pub use trace::{TraceHasher, trace_hash};

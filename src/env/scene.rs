@@ -12,6 +12,9 @@ pub struct Scene {
     pub regions: Vec<Region>,
     /// What moves.
     pub body: Body,
+    /// The proposition that hides all others where it holds, if there is one: an index into
+    /// [`EnvSpec::propositions`](super::environment::EnvSpec::propositions).
+    pub hazard: Option<usize>,
     /// The file name of a picture that fills the ground exactly, if there is one.
     pub picture: Option<String>,
 }
@@ -53,7 +56,7 @@ pub struct Region {
     pub margin: f32,
 }
 
-/// The shape of a region. All shapes include their border.
+/// The shape of a region.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Shape {
@@ -77,6 +80,13 @@ pub enum Shape {
         low: f32,
         /// Greatest value, in the channel's unit.
         high: f32,
+    },
+    /// Cells of a grid that starts in the ground's top-left corner.
+    Cells {
+        /// Width and height of a cell, in the ground's unit.
+        cell: [f32; 2],
+        /// Neighbouring cells of a row: row, first column, number of cells.
+        runs: Vec<[u32; 3]>,
     },
 }
 
