@@ -7,7 +7,7 @@ use super::preset::Preset;
 use crate::agent::{Engine, ModularDdpg, Sizes};
 use crate::automaton::{Embedding, Ldgba};
 use crate::eval::{Rollout, RolloutSettings};
-use crate::nn::{ActorCritic, NetworkShape, plain::Plain};
+use crate::nn::{ActorCritic, NetworkShape, fused::Fused};
 use crate::product::{EpMdp, LdgbaReward, Reward};
 use crate::rng::Rng;
 use crate::train::{Run, Trainer, TrainingSettings};
@@ -28,7 +28,7 @@ pub struct Setup {
 
 /// The fast networks.
 fn engine(shape: &NetworkShape, rng: &mut Rng) -> Box<dyn ActorCritic> {
-    Box::new(Plain::new(shape, rng))
+    Box::new(Fused::new(shape, rng))
 }
 
 impl Setup {
