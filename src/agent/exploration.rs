@@ -37,7 +37,7 @@ impl Default for ExplorationSettings {
 }
 
 /// A random control that is being held.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Hold {
     control: Vec<f32>,
     left: u32,
@@ -54,9 +54,19 @@ impl Hold {
         self.left = 0;
     }
 
-    /// Whether this holds a control of `channels` numbers.
-    pub fn fits(&self, channels: usize) -> bool {
-        self.control.len() == channels
+    /// A hold of `control` for `left` more steps.
+    pub fn restored(control: Vec<f32>, left: u32) -> Hold {
+        Hold { control, left }
+    }
+
+    /// The control that is or was held last.
+    pub fn control(&self) -> &[f32] {
+        &self.control
+    }
+
+    /// For how many more steps it is held.
+    pub fn left(&self) -> u32 {
+        self.left
     }
 
     /// Goes on holding, or begins to with the settings' probability; writes the held control and returns true while holding.

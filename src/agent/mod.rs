@@ -7,6 +7,7 @@
 mod bootstrap;
 mod exploration;
 mod learner;
+mod memory;
 mod modular;
 mod module;
 mod module_map;
@@ -18,6 +19,7 @@ mod trace;
 
 pub use exploration::{ExplorationSettings, Hold};
 pub use learner::{Learner, Policy, Situation, Transition, Update, View};
+pub use memory::{LearnerMemory, Replays, embedded_from_text, embedded_to_text};
 pub use modular::{Engine, ModularDdpg, Sizes};
 pub use module_map::{Encoder, MAX_MODULES, Modules, ModulesError};
 pub use noise::{Noise, NoiseSettings};

@@ -47,6 +47,7 @@ pub struct ModularDdpg {
     pub(super) hold: Hold,
     pub(super) noise_rng: Rng,
     pub(super) replay_rng: Rng,
+    sizes: Sizes,
     /// Controls recorded.
     pub(super) steps: u64,
     /// The module of q_t, until the updates of that step are done.
@@ -100,6 +101,7 @@ impl ModularDdpg {
             hold: Hold::new(sizes.control),
             noise_rng: Rng::new(seed, Purpose::Noise),
             replay_rng: Rng::new(seed, Purpose::Replay),
+            sizes,
             steps: 0,
             current: None,
             batch: Bootstrap::default(),
@@ -112,6 +114,11 @@ impl ModularDdpg {
             encoder,
             modules,
         })
+    }
+
+    /// The lengths of observations and controls.
+    pub(super) fn sizes(&self) -> Sizes {
+        self.sizes
     }
 
     /// What was chosen about this learner.

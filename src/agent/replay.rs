@@ -56,7 +56,7 @@ impl Replay {
     }
 
     /// Numbers per sample.
-    fn row(&self) -> usize {
+    pub fn row(&self) -> usize {
         2 * self.observation + self.control + 2
     }
 

@@ -4,10 +4,10 @@ use super::rollout::{Episode, Rollout};
 use super::statistics::{Interval, clopper_pearson};
 use crate::agent::Policy;
 use crate::rng::{Purpose, Rng};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a number of episodes of one policy have shown.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Evaluation {
     /// Episodes.
     pub runs: u32,

@@ -14,7 +14,7 @@ pub(super) struct OutOfRange {
 /// The largest replay per module, in samples.
 const MAX_REPLAY: usize = 10_000_000;
 /// The widest hidden layer.
-const MAX_WIDTH: usize = 4096;
+const MAX_WIDTH: usize = 1024;
 
 /// The first number of `preset` that is outside its range.
 pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
@@ -35,7 +35,7 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
         (p.discount > 0.0 && p.discount <= 1.0, &["product", "discount"], shown(&p.discount), "above 0 and at most 1"),
         (p.sink_reward.abs() <= 1e6, &["product", "sink_reward"], shown(&p.sink_reward), "within ±1000000"),
         ((0.0..=1e6).contains(&p.shaping.weight()), &["product", "shaping"], shown(&p.shaping.weight()), "a weight ≥ 0"),
-        (hidden, &["learner", "hidden"], shown(&l.hidden), "1 to 8 layers of 1 to 4096"),
+        (hidden, &["learner", "hidden"], shown(&l.hidden), "1 to 8 layers of 1 to 1024"),
         (rate(&l.actor_rate), &["learner", "actor_rate"], shown(&l.actor_rate), "0 to 1"),
         (rate(&l.critic_rate), &["learner", "critic_rate"], shown(&l.critic_rate), "0 to 1"),
         (l.tau > 0.0 && l.tau <= 1.0, &["learner", "tau"], shown(&l.tau), "above 0 and at most 1"),

@@ -2,6 +2,7 @@
 //!
 //! [`Task::parse`] checks a file, [`Setup`] joins it with an automaton and one recipe. Everything that can be wrong is found by then.
 
+mod automaton;
 mod check;
 mod error;
 mod file;

@@ -3,7 +3,9 @@
 use super::check::out_of_range;
 use super::error::{TaskError, did_you_mean, suggestion};
 use super::file::TaskFile;
+use super::parts::{environment, environments};
 use super::preset::Preset;
+use crate::env::Environment;
 use crate::ltl::Formula;
 use std::ops::Range;
 use toml::de::DeTable;
@@ -97,6 +99,20 @@ impl Task {
         &self.formula
     }
 
+    /// The environment.
+    ///
+    /// # Errors
+    /// If there is none of that name.
+    pub fn environment(&self) -> Result<Box<dyn Environment>, TaskError> {
+        let wanted = &self.file.environment.name;
+        environment(wanted).ok_or_else(|| {
+            let known: Vec<&str> = environments().collect();
+            let message = format!("there is no environment `{wanted}`; known are `{}`", known.join("`, `"));
+            let place = self.place(&["environment", "name"]);
+            TaskError::new(&self.name, &self.text, place, message).with_help(did_you_mean(wanted, known))
+        })
+    }
+
     /// The names of the presets, sorted.
     pub fn presets(&self) -> impl Iterator<Item = &str> {
         self.file.presets.keys().map(String::as_str)
@@ -148,6 +164,23 @@ impl Task {
         let inside = written.get(quotes..written.len().checked_sub(quotes)?)?;
         let start = value.start + quotes;
         if inside == self.file.specification.ltl { Some(start + span.start..start + span.end) } else { Some(value) }
+    }
+}
+
+impl Preset {
+    /// Reads a preset that stands alone, as a checkpoint keeps it.
+    ///
+    /// # Errors
+    /// What is wrong with it, and where.
+    pub fn parse(text: &str, name: &str) -> Result<Preset, TaskError> {
+        let preset: Preset = toml::from_str(text).map_err(|e| {
+            let message = e.message().trim().to_owned();
+            TaskError::new(name, text, e.span(), &message).with_help(suggestion(&message))
+        })?;
+        match out_of_range(&preset) {
+            None => Ok(preset),
+            Some(wrong) => Err(TaskError::new(name, text, None, wrong.message)),
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! A task with one recipe and its automaton: everything that training needs, checked, so that from here on nothing fails.
 
-use super::error::{TaskError, did_you_mean};
+use super::automaton::automaton;
+use super::error::TaskError;
 use super::parse::{Override, Task};
-use super::parts::{environment, environments};
 use super::preset::Preset;
 use crate::agent::{Engine, ModularDdpg, Sizes};
 use crate::automaton::{Embedding, Ldgba};
@@ -10,11 +10,11 @@ use crate::eval::{Rollout, RolloutSettings};
 use crate::nn::{ActorCritic, NetworkShape, fused::Fused};
 use crate::product::{EpMdp, LdgbaReward, Reward};
 use crate::rng::Rng;
-use crate::train::{Run, Trainer, TrainingSettings};
+use crate::train::{Checkpoint, CheckpointError, Origin, Run, Trainer, TrainingSettings};
 use std::sync::Arc;
 
 /// The most parameters that the networks of a learner may have together.
-const MAX_PARAMETERS: usize = 100_000_000;
+const MAX_PARAMETERS: usize = 50_000_000;
 
 /// A task, a recipe and an automaton.
 pub struct Setup {
@@ -32,24 +32,28 @@ fn engine(shape: &NetworkShape, rng: &mut Rng) -> Box<dyn ActorCritic> {
 }
 
 impl Setup {
-    /// Joins a task, one of its presets and an automaton that accepts its formula.
+    /// Joins a task, one of its presets with overrides in place, and the automaton given in the HOA format; without one the formula
+    /// is translated.
+    ///
+    /// # Errors
+    /// What [`Setup::with_automaton`] refuses; a text that is no automaton; an automaton that does not accept the task's formula.
+    pub fn open(task: Task, preset: &str, overrides: &[Override], hoa: Option<&str>) -> Result<Setup, TaskError> {
+        let automaton = automaton(&task, hoa)?;
+        Ok(Setup { hoa: hoa.map(str::to_owned), ..Setup::with_automaton(task, preset, overrides, automaton)? })
+    }
+
+    /// Joins a task, one of its presets with overrides in place, and an automaton that accepts its formula.
     ///
     /// # Errors
     /// An unknown environment, propositions that it does not have, or settings that do not go with the automaton.
-    pub fn with_automaton(
-        task: Task,
-        preset_name: &str,
-        overrides: &[Override],
-        automaton: Arc<Ldgba>,
-    ) -> Result<Setup, TaskError> {
-        let preset = task.preset(preset_name, overrides)?;
+    pub fn with_automaton(task: Task, preset: &str, overrides: &[Override], automaton: Arc<Ldgba>) -> Result<Setup, TaskError> {
+        let settings = task.preset(preset, overrides)?;
+        Setup::join(task, preset, settings, automaton)
+    }
+
+    fn join(task: Task, preset_name: &str, preset: Preset, automaton: Arc<Ldgba>) -> Result<Setup, TaskError> {
         let error = |path: &[&str], message: String| TaskError::new(&task.name, &task.text, task.place(path), message);
-        let wanted = &task.file.environment.name;
-        let environment = environment(wanted).ok_or_else(|| {
-            let known: Vec<&str> = environments().collect();
-            error(&["environment", "name"], format!("there is no environment `{wanted}`; known are `{}`", known.join("`, `")))
-                .with_help(did_you_mean(wanted, known))
-        })?;
+        let environment = task.environment()?;
         let section = &preset.product;
         let product_path = ["presets", preset_name, "product"];
         let embedding = Embedding::new(automaton, section.frontier, section.shaping.tracking())
@@ -61,6 +65,39 @@ impl Setup {
         let setup = Setup { preset_name: preset_name.to_owned(), preset, hoa: None, product, reward: Arc::new(reward), task };
         setup.check_modules()?;
         Ok(setup)
+    }
+
+    /// What this set-up is made of, for a checkpoint.
+    pub fn origin(&self) -> Origin {
+        Origin {
+            task_name: self.task.name.clone(),
+            task: self.task.text.clone(),
+            preset: self.preset_name.clone(),
+            settings: toml::to_string(&self.preset).expect("a preset has a form in TOML"),
+            hoa: self.hoa.clone(),
+        }
+    }
+
+    /// The set-up that a checkpoint was made of.
+    ///
+    /// # Errors
+    /// What is wrong with the task, the settings or the automaton in it.
+    pub fn from_checkpoint(checkpoint: &Checkpoint) -> Result<Setup, TaskError> {
+        let origin = &checkpoint.origin;
+        let task = Task::parse(&origin.task, &origin.task_name)?;
+        let settings = Preset::parse(&origin.settings, &format!("settings of {}", origin.task_name))?;
+        let automaton = automaton(&task, origin.hoa.as_deref())?;
+        Ok(Setup { hoa: origin.hoa.clone(), ..Setup::join(task, &origin.preset, settings, automaton)? })
+    }
+
+    /// The run that a checkpoint of this set-up was taken of, where it stood.
+    ///
+    /// # Errors
+    /// What does not fit.
+    pub fn resume(&self, checkpoint: &Checkpoint) -> Result<Run, CheckpointError> {
+        let mut run = self.run(checkpoint.seed);
+        run.restore(checkpoint)?;
+        Ok(run)
     }
 
     /// Whether the modules can be numbered and their networks fit into memory.
