@@ -1,0 +1,144 @@
+//! Every task in `specs/` opens and ticks, in each of its presets; what is wrong with a task is said at its place.
+
+use ltl_rover::task::{Override, Setup, Task, TaskError};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("specs")
+}
+
+fn tasks() -> Vec<(String, String)> {
+    let entries = fs::read_dir(folder()).unwrap().map(|e| e.unwrap().path());
+    let mut found: Vec<(String, String)> = entries
+        .filter(|p| p.extension().is_some_and(|e| e == "toml"))
+        .map(|p| (p.file_name().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(&p).unwrap()))
+        .collect();
+    found.sort();
+    found
+}
+
+fn open(name: &str, text: &str, preset: &str, overrides: &[Override]) -> Result<Setup, TaskError> {
+    let task = Task::parse(text, name)?;
+    let hoa = task.file().specification.hoa.as_ref().map(|file| fs::read_to_string(folder().join(file)).unwrap());
+    Setup::open(task, preset, overrides, hoa.as_deref())
+}
+
+fn b1() -> String {
+    fs::read_to_string(folder().join("ball_pass_b1.toml")).unwrap()
+}
+
+fn refusal(text: &str) -> TaskError {
+    match open("task.toml", text, "fast", &[]) {
+        Ok(_) => panic!("this should be refused:\n{text}"),
+        Err(error) => error,
+    }
+}
+
+#[test]
+fn every_task_opens_and_ticks_in_every_preset() {
+    let tasks = tasks();
+    for wanted in ["ball_pass_b1.toml", "ball_pass_b2.toml", "cart_pole_c1.toml", "cart_pole_c2.toml"] {
+        assert!(tasks.iter().any(|(name, _)| name == wanted), "{wanted} is missing");
+    }
+    for (name, text) in &tasks {
+        let presets: Vec<String> = Task::parse(text, name).unwrap().presets().map(str::to_owned).collect();
+        for wanted in ["paper", "fast"] {
+            assert!(presets.iter().any(|p| p == wanted), "{name} has no preset `{wanted}`");
+        }
+        for preset in &presets {
+            // Learning sooner than the recipe, so that its updates are seen as well.
+            let overrides = ["learner.exploration.warm_up=20", "learner.batch=8"].map(|o| o.parse().unwrap());
+            let setup = open(name, text, preset, &overrides).unwrap_or_else(|e| panic!("{e}"));
+            let mut trainer = setup.trainer(1);
+            let ticks: Vec<_> = trainer.ticks().take(200).collect();
+            assert!(ticks.iter().any(|t| t.update.is_some()), "{name} {preset} never learns");
+            for pair in ticks.windows(2) {
+                let ended = pair[0].end.is_some();
+                assert_eq!(ended, pair[1].start.is_some(), "{name}: an episode starts where one has ended");
+                assert!(ended || pair[0].product.to == pair[1].product.from, "{name}: embedded states are connected");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_paper_presets_are_algorithm_2() {
+    for (name, text) in tasks() {
+        let setup = open(&name, &text, "paper", &[]).unwrap();
+        let (p, l) = (&setup.preset().product, &setup.preset().learner);
+        assert_eq!((p.accepting_discount, p.discount), (0.99, 0.9999), "{name}");
+        assert_eq!((l.n_step, l.updates_per_step, l.counterfactual.samples), (1, 1, 0), "{name}");
+        assert_eq!(l.exploration.hold_probability.range(), (0.0, 0.0), "{name}");
+    }
+}
+
+#[test]
+fn unknown_keys_are_refused_with_a_suggestion_and_their_line() {
+    let error = refusal(&b1().replace("n_step = 10", "n_stp = 10"));
+    assert_eq!(error.help(), Some("did you mean `n_step`?"));
+    let line = 1 + b1().lines().position(|l| l == "n_step = 10").unwrap();
+    assert_eq!(error.position().map(|p| p.0), Some(line), "{error}");
+    let error = refusal(&b1().replace("frontier = \"refill\"", "frontier = \"refil\""));
+    assert_eq!(error.help(), Some("did you mean `refill`?"));
+    let error = refusal(&b1().replace("name = \"ball_pass\"", "name = \"ballpass\""));
+    assert_eq!(error.help(), Some("did you mean `ball_pass`?"));
+    assert_eq!(error.position().map(|p| p.0), Some(5), "{error}");
+}
+
+#[test]
+fn values_outside_their_range_are_refused_at_their_line() {
+    for (old, new) in [
+        ("accepting_discount = 0.9\n", "accepting_discount = 1.0\n"),
+        ("tau = 0.005", "tau = 0.0"),
+        ("n_step = 10", "n_step = 0"),
+        ("hidden = [64, 64]\nactor_rate = 1e-3", "hidden = []\nactor_rate = 1e-3"),
+        ("batch = 64\nn_step = 10", "batch = 100000\nn_step = 10"),
+    ] {
+        assert!(b1().contains(old), "the test looks for {old}");
+        let text = b1().replace(old, new);
+        let error = refusal(&text);
+        let key = new.lines().next().unwrap().split(' ').next().unwrap();
+        assert!(error.message().contains(&format!("`{key}`")), "{error}");
+        let (line, _) = error.position().unwrap();
+        assert!(text.lines().nth(line - 1).unwrap().starts_with(key), "{error}");
+    }
+    assert!(refusal(&b1().replace("max_steps = 200", "max_steps = 0")).message().contains("max_steps"));
+}
+
+#[test]
+fn formulas_and_automata_are_refused_at_their_place() {
+    let error = refusal(&b1().replace("G F r1 & G F r2", "G F r1 & G F (r2"));
+    let (line, column) = error.position().unwrap();
+    assert_eq!(line, 8, "{error}");
+    assert!(column > "ltl = \"G F r1 ".len(), "{error}");
+    let task = Task::parse(&b1(), "task.toml").unwrap();
+    let Err(error) = Setup::open(task, "fast", &[], Some("HOA: v1\nStates: x\n--BODY--\n--END--\n")) else {
+        panic!("no automaton")
+    };
+    assert_eq!((error.file(), error.position().map(|p| p.0)), ("ball_pass_b1.hoa", Some(2)), "{error}");
+}
+
+#[test]
+fn overrides_change_what_they_name_and_nothing_else() {
+    let parse = |o: &str| o.parse::<Override>().unwrap();
+    let open = |o: &str| open("task.toml", &b1(), "fast", &[parse(o)]);
+    let plain = open("learner.n_step=10").unwrap();
+    let changed = open("learner.modules=one").unwrap();
+    let mut expected = plain.preset().clone();
+    expected.learner.modules = ltl_rover::agent::ModuleMap::One;
+    assert_eq!(changed.preset(), &expected);
+    let schedule = open("learner.actor_rate={ from = 1e-3, to = 1e-4, over = 100 }").unwrap();
+    assert_eq!(schedule.preset().learner.actor_rate.at(100), 1e-4);
+    for (wrong, said) in [
+        ("learner.n_stp=3", "n_step"),
+        ("learner.n_step=0", "n_step"),
+        ("learner.n_step=three", "n_step"),
+        ("learner.n_step.x=3", "no table"),
+        ("lerner.n_step=3", "learner"),
+    ] {
+        let Err(error) = open(wrong) else { panic!("{wrong} should be refused") };
+        assert!(error.to_string().contains(said), "{wrong}: {error}");
+    }
+    assert!("learner.n_step".parse::<Override>().is_err());
+}
