@@ -1,5 +1,6 @@
 //! From loose parts to a valid automaton: every invariant of [`Ldgba`] is checked, or established, here and nowhere else.
 
+use super::cover::tiles;
 use super::guard::{Effort, Guard, TooComplex};
 use super::ldgba::{Edge, Ldgba, Marks, StateId};
 use super::ldgba_error::LdgbaError;
@@ -66,8 +67,10 @@ impl Ldgba {
             check_edges(state, &list, count, sets, propositions.len())?;
             let complex = |cause| LdgbaError::Complex { state, cause };
             let list = merge(list, sets, effort).map_err(complex)?;
-            check_disjoint(state, &list, effort)?;
             let all = Guard(list.iter().flat_map(|(guard, _)| guard.0.iter().copied()).collect());
+            if !tiles(&all.0, propositions.len(), effort).map_err(complex)? {
+                check_disjoint(state, &list, effort)?;
+            }
             if let Some(letter) = all.missing(effort).map_err(complex)? {
                 match gaps {
                     Gaps::Refuse => return Err(LdgbaError::Incomplete { state, letter }),

@@ -22,6 +22,13 @@ fn cofactor(cubes: &[Cube], index: u32, value: bool) -> Vec<Cube> {
     cubes.iter().filter(|cube| !conflicts(cube)).map(|cube| cube.without(index)).collect()
 }
 
+/// Whether `cubes` cut the letters over `propositions` propositions into pieces: every letter is in exactly one of them. Their sizes
+/// add up to that of the alphabet, and nothing is missing. Much cheaper than comparing all pairs.
+pub(super) fn tiles(cubes: &[Cube], propositions: usize, effort: &mut Effort) -> Result<bool, TooComplex> {
+    let size = |cube: &Cube| 1u128 << propositions.saturating_sub(cube.support().count_ones() as usize);
+    Ok(cubes.iter().map(size).sum::<u128>() == 1 << propositions && missing(cubes, effort)?.is_none())
+}
+
 /// The proposition to split on: the one that most cubes speak of, those of both signs first.
 fn split_index(cubes: &[Cube]) -> Option<(u32, bool)> {
     let mut counts = [(0u32, 0u32); 64];

@@ -1,5 +1,6 @@
 //! The letters of a state cut into classes, each with the one or several edges that may be taken.
 
+use super::super::cover::tiles;
 use super::super::guard::{Cube, Effort, Guard, TooComplex};
 use super::super::ldgba::Marks;
 use super::nba::NbaEdge;
@@ -23,9 +24,10 @@ impl Class {
 }
 
 /// The classes of a state with these edges; letters without an edge are in none.
-pub(super) fn classes(edges: &[NbaEdge], effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
+pub(super) fn classes(edges: &[NbaEdge], propositions: usize, effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
     let merged = merge(edges.iter().map(|edge| (&edge.guard, (edge.target, edge.marks))));
-    if disjoint(&merged, effort)? {
+    let cubes: Vec<Cube> = merged.iter().flat_map(|(guard, _)| guard.0.iter().copied()).collect();
+    if tiles(&cubes, propositions, effort)? || disjoint(&merged, effort)? {
         return Ok(merged.into_iter().map(|(guard, target)| Class { guard, targets: vec![target] }).collect());
     }
     let edges = merged.into_iter().map(|(guard, target)| Class { guard, targets: vec![target] }).collect();
@@ -114,7 +116,7 @@ mod tests {
                     NbaEdge { guard: Guard(vec![Cube { positive: p, negative: n & !p }]), target, marks: Marks(marks), span }
                 })
                 .collect();
-            let found = classes(&edges, &mut Effort::default()).unwrap();
+            let found = classes(&edges, 3, &mut Effort::default()).unwrap();
             for sigma in (0..8).map(Labels) {
                 let mut expected: Vec<(usize, u32)> = Vec::new();
                 for edge in edges.iter().filter(|edge| edge.guard.contains(sigma)) {

@@ -31,7 +31,7 @@ pub(super) struct Partition {
 pub(super) fn partition(nba: &Nba, document: &Document, labeller: &mut Labeller, notes: &mut Notes) -> Result<Partition, Fault> {
     let mut all = Vec::with_capacity(nba.states.len());
     for state in &nba.states {
-        all.push(classes(&state.edges, &mut labeller.effort).map_err(too_complex(state.span))?);
+        all.push(classes(&state.edges, nba.propositions.len(), &mut labeller.effort).map_err(too_complex(state.span))?);
     }
     check_claims(nba, document, &all, labeller)?;
 

@@ -29,8 +29,10 @@ mod parser;
 mod property;
 mod read;
 mod syntax;
+mod write;
 
 pub use body::MAX_EDGES;
 pub use error::{HoaError, HoaErrorKind, HoaNote, Place};
 pub use jumps::MAX_NODES;
 pub use read::{MAX_AUTOMATA, MAX_LENGTH, Reading, StreamItem, read, read_stream};
+pub use write::{AcceptanceForm, EpsilonForm, WriteOptions, write};
