@@ -53,7 +53,7 @@ test-learning: ## kernels against burn, and learning, in release
 
 .PHONY: test-wasm
 test-wasm: ## the WebAssembly module under Node
-	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary
+	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary --test golden_trace
 
 .PHONY: test-web
 test-web: ## the page's modules: types and units

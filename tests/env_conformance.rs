@@ -1,7 +1,9 @@
 //! One suite that every environment passes: ranges, determinism, clamping, copies, and labels that agree with the drawn scene.
 
 use ltl_rover::env::map::{Picture, RoverMap};
-use ltl_rover::env::{BallPass, Body, CartPole, EnvSpec, Environment, Outcome, Rover, Scene, Shape, trace_hash};
+use ltl_rover::env::{
+    BallPass, Body, CartPole, Current, EnvSpec, Environment, Islands, Outcome, Rover, Scene, Shape, trace_hash,
+};
 use ltl_rover::labels::Labels;
 use ltl_rover::rng::{Purpose, Rng};
 use std::sync::{Arc, LazyLock};
@@ -13,6 +15,9 @@ fn all() -> Vec<Box<dyn Environment>> {
         shipped.chain([painted()]).map(Arc::new).collect()
     });
     let mut all: Vec<Box<dyn Environment>> = vec![Box::new(BallPass::new()), Box::new(CartPole::new())];
+    all.extend(
+        [Current::None, Current::AtA, Current::AtB].map(|current| Box::new(Islands::new(current)) as Box<dyn Environment>),
+    );
     all.extend(MAPS.iter().map(|map| Box::new(Rover::new(map.clone())) as Box<dyn Environment>));
     all
 }

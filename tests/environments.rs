@@ -1,6 +1,6 @@
 //! What each environment is by definition: its dynamics, labels and borders, against numbers from elsewhere.
 
-use ltl_rover::env::{BallPass, CartPole, Environment, Outcome};
+use ltl_rover::env::{BallPass, CartPole, Current, Environment, Islands, Outcome};
 use ltl_rover::labels::Labels;
 use ltl_rover::rng::{Purpose, Rng};
 
@@ -136,6 +136,40 @@ fn cart_pole_starts_within_gymnasiums_box() {
         widest = cart.state().iter().fold(widest, |w, v| w.max(v.abs()));
     }
     assert!(widest > 0.045);
+}
+
+#[test]
+fn islands_can_be_held_exactly_where_there_is_no_current() {
+    // The best one can do: steer back to the centre of the island with all force.
+    let held = |current, goal: [f32; 2], label: usize| {
+        let (mut boat, mut draws) = (Islands::new(current), rng());
+        boat.set_state(&goal);
+        let mut inside = 0;
+        for _ in 0..1_000 {
+            let back: Vec<f32> = boat.state().iter().zip(goal).map(|(s, g)| 5.0 * (g - s)).collect();
+            boat.step(&back, &mut draws);
+            inside += usize::from(boat.labels().holds(label));
+        }
+        inside
+    };
+    let (a, b) = ([2.5, 5.0], [7.5, 5.0]);
+    assert_eq!((held(Current::None, a, 0), held(Current::None, b, 1)), (1_000, 1_000));
+    assert_eq!((held(Current::AtB, a, 0), held(Current::AtA, b, 1)), (1_000, 1_000));
+    let (swept_a, swept_b) = (held(Current::AtA, a, 0), held(Current::AtB, b, 1));
+    assert!((100..900).contains(&swept_a) && (100..900).contains(&swept_b), "{swept_a} {swept_b}");
+}
+
+#[test]
+fn islands_start_at_a() {
+    let (mut boat, mut draws) = (Islands::new(Current::AtA), rng());
+    for _ in 0..500 {
+        boat.reset(&mut draws);
+        assert_eq!(boat.labels(), Labels::only(0));
+    }
+    boat.set_state(&[4.0, 5.0]);
+    assert_eq!(boat.labels(), Labels::only(0), "the shore belongs to the island");
+    boat.set_state(&[4.001, 5.0]);
+    assert_eq!(boat.labels(), Labels::EMPTY);
 }
 
 type Recorded = ([f32; 4], f32, [f32; 4], bool);

@@ -7,6 +7,7 @@
 mod ball_pass;
 mod cart_pole;
 mod environment;
+mod islands;
 pub mod map;
 mod rover;
 mod scene;
@@ -15,6 +16,7 @@ mod trace;
 pub use ball_pass::BallPass;
 pub use cart_pole::CartPole;
 pub use environment::{Channel, EnvSpec, Environment, Outcome};
+pub use islands::{Current, Islands};
 pub use rover::Rover;
 pub use scene::{Body, Ground, Region, Scene, Shape, YAxis};
 pub use trace::{TraceHasher, trace_hash};

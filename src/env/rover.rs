@@ -45,6 +45,13 @@ impl Rover {
         Rover { spec, map, state }
     }
 
+    /// The environment on a shipped map ([`RoverMap::shipped_names`]); `None` for other names.
+    pub fn shipped(name: &str) -> Option<Rover> {
+        let text = RoverMap::shipped(name)?;
+        let map = RoverMap::from_json(text, None).expect("the tests read every shipped map");
+        Some(Rover::new(Arc::new(map)))
+    }
+
     /// The map.
     pub fn map(&self) -> &RoverMap {
         &self.map
