@@ -1,7 +1,10 @@
 //! The commands, and the way from the program's arguments to its exit code.
 
+use super::eval;
 use super::failure::Failure;
 use super::plot;
+use super::schema;
+use super::train;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -17,8 +20,14 @@ pub struct Cli {
 /// The commands. Each variant holds the arguments of the module of its name.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Learn a task: train until it is solved or the budget is spent.
+    Train(train::Train),
+    /// Judge a trained policy: success rate with its interval, rounds, sinks.
+    Eval(eval::Eval),
     /// Draw the curves of one or several runs: average and total reward, rounds, success.
     Plot(plot::Plot),
+    /// Print the JSON schema of task files.
+    Schema(schema::Schema),
 }
 
 /// Reads the program's arguments, runs the command, prints its error if there is one.
@@ -31,7 +40,10 @@ pub fn main() -> ExitCode {
         }
     };
     let done: Result<ExitCode, Failure> = match &cli.command {
+        Command::Train(train) => train.run(),
+        Command::Eval(eval) => eval.run(),
         Command::Plot(plot) => plot.run(),
+        Command::Schema(schema) => schema.run(),
     };
     done.unwrap_or_else(|failure| failure.print())
 }

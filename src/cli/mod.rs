@@ -5,8 +5,14 @@
 
 mod command;
 mod curves;
+mod eval;
 mod failure;
+mod files;
+mod logs;
 mod plot;
+mod progress;
+pub mod schema;
+mod train;
 
 pub use command::{Cli, main};
 pub use failure::Failure;

@@ -2,6 +2,7 @@
 
 use super::automaton::automaton;
 use super::error::TaskError;
+use super::file::TaskFile;
 use super::parse::{Override, Task};
 use super::preset::Preset;
 use crate::agent::{Engine, ModularDdpg, Sizes};
@@ -65,6 +66,12 @@ impl Setup {
         let setup = Setup { preset_name: preset_name.to_owned(), preset, hoa: None, product, reward: Arc::new(reward), task };
         setup.check_modules()?;
         Ok(setup)
+    }
+
+    /// The task file with this one preset and every number written out.
+    pub fn resolved(&self) -> String {
+        let presets = [(self.preset_name.clone(), self.preset.clone())].into();
+        toml::to_string(&TaskFile { presets, ..self.task.file.clone() }).expect("a task file has a form in TOML")
     }
 
     /// What this set-up is made of, for a checkpoint.

@@ -1,6 +1,6 @@
 //! Metrics folded over ticks: a summary per episode, and rows of means under the names that Stable-Baselines3 uses.
 
-use super::trainer::Tick;
+use super::trainer::{Tick, Trainer};
 use crate::eval::Episode;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -67,6 +67,14 @@ pub struct Metrics {
 }
 
 impl Metrics {
+    /// Nothing folded yet, for what `trainer` does.
+    pub fn of(trainer: &Trainer) -> Metrics {
+        let automaton = trainer.product().embedding().automaton();
+        let modules = trainer.learner().modules();
+        let state = |q| if automaton.name(q).is_empty() { q.to_string() } else { automaton.name(q).to_owned() };
+        Metrics::new(automaton.states().map(state).collect(), (0..modules.len()).map(|m| modules.name(m).to_owned()).collect())
+    }
+
     /// Nothing folded yet; `states` and `modules` are the names of automaton states and modules.
     pub fn new(states: Vec<String>, modules: Vec<String>) -> Metrics {
         let (visits, losses) = (vec![0; states.len()], vec![Mean::default(); modules.len()]);
@@ -124,16 +132,15 @@ impl Metrics {
         Some(summary)
     }
 
-    /// The row of this moment: means over the last 100 episodes, losses since the last row, visits since the beginning.
-    /// Means of nothing are left out.
-    pub fn row(&mut self) -> Vec<(String, f64)> {
-        let mut row = vec![("time/total_timesteps".to_owned(), self.step as f64)];
-        row.push(("time/episodes".to_owned(), self.episodes as f64));
+    /// The row of this moment, always with the same columns: means over the last 100 episodes, losses since the last row, visits
+    /// since the beginning. The mean of nothing is `None`.
+    pub fn row(&mut self) -> Vec<(String, Option<f64>)> {
+        let mut row = vec![("time/total_timesteps".to_owned(), Some(self.step as f64))];
+        row.push(("time/episodes".to_owned(), Some(self.episodes as f64)));
         let n = self.window.len() as f64;
         let mut mean = |name: &str, of: &dyn Fn(&EpisodeSummary) -> f64| {
-            if n > 0.0 {
-                row.push((name.to_owned(), self.window.iter().map(of).sum::<f64>() / n));
-            }
+            let value = (n > 0.0).then(|| self.window.iter().map(of).sum::<f64>() / n);
+            row.push((name.to_owned(), value));
         };
         mean("rollout/ep_rew_mean", &|e| e.total_reward);
         mean("rollout/ep_rew_per_step_mean", &|e| e.average_reward);
@@ -141,25 +148,16 @@ impl Metrics {
         mean("rollout/success_rate", &|e| f64::from(e.success));
         mean("ltl/rounds", &|e| f64::from(e.rounds));
         mean("ltl/sink_rate", &|e| f64::from(e.sink));
-        let (mut critic, mut actor) = (Mean::default(), Mean::default());
-        for m in 0..self.modules.len() {
-            let (c, a) = (self.critic[m], self.actor[m]);
-            critic = Mean { sum: critic.sum + c.sum, count: critic.count + c.count };
-            actor = Mean { sum: actor.sum + a.sum, count: actor.count + a.count };
-        }
-        let mut loss = |name: String, mean: &mut Mean| {
-            if let Some(value) = mean.take() {
-                row.push((name, value));
-            }
-        };
-        loss("train/critic_loss".to_owned(), &mut critic);
-        loss("train/actor_loss".to_owned(), &mut actor);
+        let all =
+            |losses: &[Mean]| losses.iter().fold(Mean::default(), |a, b| Mean { sum: a.sum + b.sum, count: a.count + b.count });
+        row.push(("train/critic_loss".to_owned(), all(&self.critic).take()));
+        row.push(("train/actor_loss".to_owned(), all(&self.actor).take()));
         for (m, name) in self.modules.iter().enumerate() {
-            loss(format!("train/critic_loss/{name}"), &mut self.critic[m]);
-            loss(format!("train/actor_loss/{name}"), &mut self.actor[m]);
+            row.push((format!("train/critic_loss/{name}"), self.critic[m].take()));
+            row.push((format!("train/actor_loss/{name}"), self.actor[m].take()));
         }
-        row.push(("train/n_updates".to_owned(), self.updates.iter().sum::<u64>() as f64));
-        row.extend(self.states.iter().zip(&self.visits).map(|(q, n)| (format!("ltl/visits/{q}"), *n as f64)));
+        row.push(("train/n_updates".to_owned(), Some(self.updates.iter().sum::<u64>() as f64)));
+        row.extend(self.states.iter().zip(&self.visits).map(|(q, n)| (format!("ltl/visits/{q}"), Some(*n as f64))));
         row
     }
 

@@ -199,6 +199,11 @@ impl Trainer {
         self.step >= self.settings.steps || self.settings.episodes > 0 && episodes_done >= self.settings.episodes
     }
 
+    /// Changes the budget of environment steps.
+    pub fn set_budget(&mut self, steps: u64) {
+        self.settings.steps = steps;
+    }
+
     /// The product, where it stands.
     pub fn product(&self) -> &EpMdp {
         &self.product
