@@ -8,6 +8,7 @@ pub mod fused;
 pub mod plain;
 mod record;
 mod tensors;
+pub mod workload;
 
 pub use actor_critic::{ActorCritic, Batch, Critics, LayerNorm, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
 pub use record::{Record, RecordError};

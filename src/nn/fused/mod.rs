@@ -19,5 +19,5 @@ mod norm;
 mod pass;
 mod product;
 
-pub use lanes::Kernel;
+pub use lanes::{Kernel, LANES, Lanes, Work};
 pub use learner::Fused;
