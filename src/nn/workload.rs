@@ -121,9 +121,9 @@ pub fn peak(kernel: Kernel, count: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fused::Fused;
+    use super::super::plain::Plain;
     use super::*;
-    use crate::nn::fused::Fused;
-    use crate::nn::plain::Plain;
 
     #[test]
     fn operations_of_the_usual_sizes() {
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn implementations_do_the_same_work() {
         let shape = NetworkShape::new(3, 1, &[8, 8]);
-        let mut rng = || Rng::new(1, Purpose::Initialisation);
+        let rng = || Rng::new(1, Purpose::Initialisation);
         let mut fused = Workload::new(Box::new(Fused::new(&shape, &mut rng())), 16, 2);
         let mut plain = Workload::new(Box::new(Plain::new(&shape, &mut rng())), 16, 2);
         for _ in 0..20 {

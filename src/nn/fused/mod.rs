@@ -19,5 +19,6 @@ mod norm;
 mod pass;
 mod product;
 
-pub use lanes::{Kernel, LANES, Lanes, Work};
+pub use lanes::Kernel;
+pub(super) use lanes::{LANES, Lanes, Work};
 pub use learner::Fused;
