@@ -7,6 +7,8 @@ mod actor_critic;
 pub mod fused;
 pub mod plain;
 mod record;
+#[cfg(feature = "burn")]
+pub mod reference;
 mod tensors;
 pub mod workload;
 
