@@ -56,13 +56,23 @@ fn awake(mut tensors: Vec<NetworkTensor>, shape: &NetworkShape) -> Vec<NetworkTe
     tensors
 }
 
-/// Compares `other` with the plain implementation in everything it does.
-///
-/// Adam divides a gradient by its own size, so that where one is made of rounding errors alone (as behind a layer norm that removes what
-/// a weight adds) its step is as long as any other. An `epsilon` above such gradients keeps parameters comparable.
-fn check(name: &str, other: &mut dyn ActorCritic, (rows, updates): (usize, usize), epsilon: f32, rng: &mut Rng) {
+/// Two implementations of one module, and how they are compared.
+struct Pair<'a> {
+    name: &'a str,
+    ours: &'a mut dyn ActorCritic,
+    theirs: &'a mut dyn ActorCritic,
+    rows: usize,
+    updates: usize,
+    /// Adam's ε. Adam divides a gradient by its own size, so that where one is made of rounding errors alone (as behind a layer norm that
+    /// removes what a weight adds) its step is as long as any other. An ε above such gradients keeps parameters comparable.
+    epsilon: f32,
+    /// Of the parameters after all updates, relative to the largest of the network.
+    tolerance: f32,
+}
+
+/// Compares the two in everything they do.
+fn check(Pair { name, ours: other, theirs: plain, rows, updates, epsilon, tolerance }: Pair<'_>, rng: &mut Rng) {
     let shape = other.shape().clone();
-    let mut plain = Plain::new(&shape, rng);
     let start = awake(plain.tensors(true), &shape);
     plain.load(&start).unwrap();
     other.load(&start).unwrap();
@@ -84,7 +94,7 @@ fn check(name: &str, other: &mut dyn ActorCritic, (rows, updates): (usize, usize
         all.extend_from_slice(&values);
         all
     };
-    let apart = distance(&run(other), &run(&mut plain), 0.0);
+    let apart = distance(&run(other), &run(plain), 0.0);
     assert!(apart <= 1e-5, "{name}: actions or values are off by {apart:e}");
 
     // After one update from rest Adam's first moment is (1 − β₁) times the gradient.
@@ -95,18 +105,18 @@ fn check(name: &str, other: &mut dyn ActorCritic, (rows, updates): (usize, usize
         let all = module.tensors(true);
         all.into_iter().filter(|tensor| tensor.name.contains(".adam.m.")).collect::<Vec<_>>()
     };
-    check_tensors(&format!("{name}, critic gradient"), &moments(other), &moments(&plain), 1e-5);
+    check_tensors(&format!("{name}, critic gradient"), &moments(other), &moments(plain), 1e-5);
     // From the same parameters again, so that only one update's rounding is seen.
     other.load(&plain.tensors(true)).unwrap();
     let fresh: Vec<_> =
-        moments(&plain).iter().map(|tensor| NetworkTensor { values: vec![0.0; tensor.values.len()], ..tensor.clone() }).collect();
-    for module in [other as &mut dyn ActorCritic, &mut plain] {
+        moments(plain).iter().map(|tensor| NetworkTensor { values: vec![0.0; tensor.values.len()], ..tensor.clone() }).collect();
+    for module in [&mut *other, &mut *plain] {
         module.load(&fresh).unwrap();
     }
     let (ours, theirs) = (other.update(data.batch(), &settings), plain.update(data.batch(), &settings));
     let apart = distance(&[ours.critic, ours.actor], &[theirs.critic, theirs.actor], 1.0);
     assert!(apart <= 1e-5, "{name}: losses are off by {apart:e}");
-    check_tensors(&format!("{name}, gradients"), &moments(other), &moments(&plain), 1e-4);
+    check_tensors(&format!("{name}, gradients"), &moments(other), &moments(plain), 1e-4);
 
     other.load(&start).unwrap();
     plain.load(&start).unwrap();
@@ -116,12 +126,7 @@ fn check(name: &str, other: &mut dyn ActorCritic, (rows, updates): (usize, usize
         plain.update(data.batch(), &settings);
     }
     let parameters = |module: &dyn ActorCritic| module.tensors(false);
-    check_tensors(
-        &format!("{name}, after {updates} updates"),
-        &parameters(other),
-        &parameters(&plain),
-        if epsilon > 1e-6 { 1e-4 } else { 1e-3 },
-    );
+    check_tensors(&format!("{name}, after {updates} updates"), &parameters(other), &parameters(plain), tolerance);
 }
 
 #[test]
@@ -130,8 +135,31 @@ fn usual_shapes_agree_with_the_plain_networks() {
     for (hidden, rows) in [(vec![64, 64], 64), (vec![128, 128], 16), (vec![32], 32), (vec![24, 40, 16], 20)] {
         for kernel in [Kernel::fastest(), Kernel::PORTABLE] {
             let shape = NetworkShape::new(8, 2, &hidden);
-            let name = format!("{} {hidden:?} × {rows}", kernel.name());
-            check(&name, &mut Fused::with_kernel(&shape, &mut rng, kernel), (rows, 5), 1e-8, &mut rng);
+            let (ours, theirs) = (&mut Fused::with_kernel(&shape, &mut rng, kernel), &mut Plain::new(&shape, &mut rng));
+            let name = &format!("{} {hidden:?} × {rows}", kernel.name());
+            check(Pair { name, ours, theirs, rows, updates: 5, epsilon: 1e-8, tolerance: 1e-3 }, &mut rng);
+        }
+    }
+}
+
+/// The fast kernel, the plain networks and burn's two backends, in pairs that share no arithmetic.
+#[cfg(feature = "burn")]
+#[test]
+fn burn_agrees_with_both() {
+    use ltl_rover::nn::reference::{Backend, Reference};
+
+    let mut rng = Rng::new(6, Purpose::Tool);
+    let usual = NetworkShape::new(8, 2, &[64, 64]);
+    let options = NetworkShape { critics: Critics::Twin, layer_norm: LayerNorm::Both, ..NetworkShape::new(7, 3, &[40, 24]) };
+    for shape in [usual, options] {
+        for backend in [Backend::Flex, Backend::NdArray] {
+            let reference = &mut Reference::new(&shape, &mut rng, backend);
+            let (fused, plain) = (&mut Fused::new(&shape, &mut rng), &mut Plain::new(&shape, &mut rng));
+            for (name, ours) in [("fused", fused as &mut dyn ActorCritic), ("plain", plain)] {
+                let name = &format!("{name}, {}", backend.name());
+                let pair = Pair { name, ours, theirs: reference, rows: 32, updates: 10, epsilon: 1e-4, tolerance: 1e-5 };
+                check(pair, &mut rng);
+            }
         }
     }
 }
@@ -158,7 +186,9 @@ proptest! {
     fn any_shape_agrees_with_the_plain_networks(shape in any_shape(), rows in 1..20usize, seed in any::<u64>(), fast in any::<bool>()) {
         let mut rng = Rng::new(seed, Purpose::Tool);
         let kernel = if fast { Kernel::fastest() } else { Kernel::PORTABLE };
-        check(kernel.name(), &mut Fused::with_kernel(&shape, &mut rng, kernel), (rows, 3), 1e-4, &mut rng);
+        let (ours, theirs) = (&mut Fused::with_kernel(&shape, &mut rng, kernel), &mut Plain::new(&shape, &mut rng));
+        let name = kernel.name();
+        check(Pair { name, ours, theirs, rows, updates: 3, epsilon: 1e-4, tolerance: 1e-4 }, &mut rng);
     }
 
     /// A row's action does not depend on the rows beside it, to the bit.
