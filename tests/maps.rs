@@ -5,10 +5,18 @@ use ltl_rover::env::{Environment, Rover, Shape};
 use ltl_rover::labels::Labels;
 use ltl_rover::rng::{Purpose, Rng};
 use proptest::prelude::*;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-fn shipped(name: &str) -> RoverMap {
-    RoverMap::from_json(RoverMap::shipped(name).unwrap(), None).unwrap()
+/// A shipped map, read once.
+fn shipped(name: &str) -> Arc<RoverMap> {
+    static MAPS: LazyLock<[Arc<RoverMap>; 2]> = LazyLock::new(|| {
+        ["melas", "victoria"].map(|name| Arc::new(RoverMap::from_json(RoverMap::shipped(name).unwrap(), None).unwrap()))
+    });
+    MAPS[usize::from(name == "victoria")].clone()
+}
+
+fn rover(name: &str) -> Rover {
+    Rover::new(shipped(name))
 }
 
 /// A map file with one disc and one triangle, and one change to it.
@@ -45,6 +53,7 @@ fn the_shipped_maps_have_the_size_and_labels_of_the_paper() {
     let names: Vec<String> = (1..=12).map(|i| format!("v{i}")).chain(["unsafe".to_owned()]).collect();
     assert_eq!(victoria.propositions.iter().collect::<Vec<_>>(), names);
     assert_eq!(RoverMap::shipped("mars"), None);
+    assert!(Rover::shipped("mars").is_none());
     assert_eq!(RoverMap::shipped_names().collect::<Vec<_>>(), ["melas", "victoria"]);
 }
 
@@ -100,7 +109,7 @@ fn known_places_have_their_labels() {
 
 #[test]
 fn a_step_goes_in_the_direction_by_a_uniform_distance() {
-    let mut rover = Rover::shipped("melas").unwrap();
+    let mut rover = rover("melas");
     let mut rng = Rng::new(1, Purpose::Tool);
     let (mut distances, n) = (vec![], 20_000);
     for k in 0..n {
@@ -124,7 +133,7 @@ fn a_step_goes_in_the_direction_by_a_uniform_distance() {
 
 #[test]
 fn the_border_stops_the_rover_and_no_direction_is_east() {
-    let mut rover = Rover::shipped("victoria").unwrap();
+    let mut rover = rover("victoria");
     let mut rng = Rng::new(2, Purpose::Tool);
     rover.set_state(&[745.9, 529.9]);
     for _ in 0..10 {
@@ -138,7 +147,7 @@ fn the_border_stops_the_rover_and_no_direction_is_east() {
 
 #[test]
 fn starts_are_uniform_over_the_free_ground() {
-    let map = Arc::new(shipped("melas"));
+    let map = shipped("melas");
     let mut rover = Rover::new(map.clone());
     let mut rng = Rng::new(3, Purpose::Tool);
     let n = 20_000;
@@ -279,6 +288,40 @@ fn a_legend_gives_colours_their_labels() {
     assert!(error(r##"{"colours": {"#ff00é": "unsafe"}}"##).contains("write it as #rrggbb"));
     assert!(error(r##"{"colours": {"#ff0000": "usafe"}}"##).contains("image.colours.#ff0000: there is no label `usafe`"));
     assert!(error(r##"{"colours": {}, "others": "ignore"}"##).contains("unknown variant `ignore`"));
+}
+
+#[test]
+fn a_map_written_as_one_file_is_the_same_map() {
+    for map in [shipped("melas"), Arc::new(RoverMap::from_json(&with("m", "m"), None).unwrap())] {
+        assert!(RoverMap::from_json(&map.to_json(), None).unwrap() == *map, "{}", map.name);
+    }
+    let text = r##"{"name": "m", "unit": "m", "width": 8, "height": 2, "reach": 1, "labels": [{"name": "goal"}, {"name": "unsafe"}],
+        "regions": [{"label": "goal", "disc": [1, 1, 1.9]}], "picture": "view.png",
+        "image": {"file": "labels.png", "colours": {"#ff0000": "unsafe", "#ffffff": null, "#00ff00": "goal"}}}"##;
+    assert_eq!(RoverMap::image_file(text).unwrap().as_deref(), Some("labels.png"));
+    let pixels = [WHITE, WHITE, RED, GREEN, WHITE, RED, RED, WHITE];
+    let map = RoverMap::from_json(text, Some(&png(4, 2, &pixels))).unwrap();
+    let again = RoverMap::from_json(&map.to_json(), None).unwrap();
+    assert!(again.grid == map.grid && again.regions == map.regions && again.meanings == map.meanings);
+    assert_eq!(again.picture.as_deref(), Some("view.png"));
+    assert_eq!(RoverMap::image_file(&map.to_json()).unwrap(), None);
+    let painted = RoverMap::from_png("p", &png(4, 2, &pixels)).unwrap();
+    let again = RoverMap::from_json(&painted.to_json(), None).unwrap();
+    assert!(again.grid == painted.grid && again.propositions == painted.propositions && again.reach == painted.reach);
+    // What is written out is checked like everything else.
+    for (from, to, message) in [
+        ("[0,2]", "[9,2]", "grid.runs[0]: there is no such letter"),
+        ("[0,2]", "[0,1]", "grid.runs: the runs have fewer cells"),
+        ("[0,2]", "[0,4000000000]", "grid.runs[0]"),
+        ("\"columns\":4", "\"columns\":0", "grid.columns"),
+        ("\"rows\":2", "\"rows\":4000000000", "at most 16777216"),
+        ("[\"green\"]", "[\"gren\"]", "did you mean `green`?"),
+    ] {
+        let text = painted.to_json();
+        assert!(text.contains(from), "{text}");
+        let error = RoverMap::from_json(&text.replacen(from, to, 1), None).unwrap_err().to_string();
+        assert!(error.contains(message), "{from} → {to}: {error}");
+    }
 }
 
 #[test]
