@@ -21,5 +21,8 @@ pub mod ltl;
 pub mod nn;
 pub mod product;
 pub mod rng;
+pub mod session;
 pub mod task;
 pub mod train;
+#[cfg(feature = "wasm")]
+pub mod wasm;

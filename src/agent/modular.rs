@@ -141,6 +141,11 @@ impl ModularDdpg {
         self.modules.iter().map(|m| m.replay.len()).sum()
     }
 
+    /// Samples in the replay of `module`.
+    pub fn samples_of(&self, module: usize) -> usize {
+        self.modules[module].replay.len()
+    }
+
     /// The networks of each module, without optimisers.
     pub fn policy(&self) -> Vec<Vec<NetworkTensor>> {
         self.modules.iter().map(|m| m.networks.tensors(false)).collect()

@@ -7,7 +7,7 @@
 //! over, and a run of an infinite word that ends satisfies nothing.
 
 use crate::agent::{Policy, View};
-use crate::product::{Chosen, EpMdp, Move, MoveKind, ProductStep, Reward, Start};
+use crate::product::{Chosen, EpMdp, Move, MoveKind, ProductStart, ProductStep, Reward, Start};
 use crate::rng::{Purpose, Rng};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -64,17 +64,19 @@ pub struct Rollout {
     rng: Rng,
     view: View,
     control: Vec<f32>,
+    start: ProductStart,
     episode: Episode,
 }
 
 impl Rollout {
     /// An episode of `product` (a copy of its own) from a start drawn from `seed`.
-    pub fn new(product: EpMdp, reward: Arc<dyn Reward>, settings: RolloutSettings, seed: u64) -> Rollout {
+    pub fn new(mut product: EpMdp, reward: Arc<dyn Reward>, settings: RolloutSettings, seed: u64) -> Rollout {
         let control = vec![0.0; product.environment().spec().action.len()];
         let view = View::new(&product);
-        let rng = Rng::new(seed, Purpose::Evaluation);
-        let mut rollout = Rollout { product, reward, settings, rng, view, control, episode: Episode::default() };
-        rollout.restart(seed);
+        let mut rng = Rng::new(seed, Purpose::Evaluation);
+        let start = product.reset(settings.start, &mut rng);
+        let mut rollout = Rollout { product, reward, settings, rng, view, control, start, episode: Episode::default() };
+        rollout.begin(start);
         rollout
     }
 
@@ -82,7 +84,7 @@ impl Rollout {
     pub fn restart(&mut self, seed: u64) {
         self.rng = Rng::new(seed, Purpose::Evaluation);
         let start = self.product.reset(self.settings.start, &mut self.rng);
-        self.begin(start.closes_round);
+        self.begin(start);
     }
 
     /// Begins another episode in a given state of the environment, in physical units.
@@ -91,10 +93,13 @@ impl Rollout {
     /// If `state` has another length than the environment's.
     pub fn restart_at(&mut self, state: &[f32]) {
         let start = self.product.reset_to(state);
-        self.begin(start.closes_round);
+        self.begin(start);
     }
 
-    fn begin(&mut self, closes_round: bool) {
+    fn begin(&mut self, start: ProductStart) {
+        let closes_round = start.closes_round;
+        self.start = start;
+        self.control.fill(0.0);
         self.episode = Episode {
             rounds: u32::from(closes_round),
             first_round_steps: closes_round.then_some(0),
@@ -122,6 +127,11 @@ impl Rollout {
     /// Whether the episode is over: its steps are made, or it ended in a sink.
     pub fn over(&self) -> bool {
         self.product.ended() || self.episode.steps >= self.settings.max_steps
+    }
+
+    /// How the episode began.
+    pub fn start(&self) -> &ProductStart {
+        &self.start
     }
 
     /// How the episode went so far.

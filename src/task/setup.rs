@@ -82,6 +82,7 @@ impl Setup {
             preset: self.preset_name.clone(),
             settings: toml::to_string(&self.preset).expect("a preset has a form in TOML"),
             hoa: self.hoa.clone(),
+            ..Origin::default()
         }
     }
 

@@ -27,6 +27,9 @@ use std::collections::BTreeMap;
 /// The version of the format; others are refused.
 pub const FORMAT: &str = "ltl-rover checkpoint 1";
 
+/// What the keys of notes begin with.
+const NOTE: &str = "note.";
+
 /// What a run was made of, as text: from it, the same parts are made again.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Origin {
@@ -40,6 +43,8 @@ pub struct Origin {
     pub settings: String,
     /// The text of the automaton in the HOA format, if there was one.
     pub hoa: Option<String>,
+    /// What a shell keeps with the run, such as its learning curves; training does not look at it.
+    pub notes: BTreeMap<String, String>,
 }
 
 /// Why bytes are no checkpoint, or not one of this run.
@@ -155,7 +160,8 @@ impl Run {
             ("updates", trainer.learner.updates().to_string()),
         ];
         entries.extend(origin.hoa.iter().map(|hoa| ("hoa", hoa.clone())));
-        entries.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
+        let notes = origin.notes.iter().map(|(key, text)| (format!("{NOTE}{key}"), text.clone()));
+        entries.into_iter().map(|(key, text)| (key.to_owned(), text)).chain(notes).collect()
     }
 
     /// Puts a fresh run, made of the checkpoint's [`Origin`] and seed, where the saved one stood. From a policy file only the policy
@@ -230,6 +236,11 @@ impl Checkpoint {
             preset: needed("preset")?,
             settings: needed("settings")?,
             hoa: text("hoa"),
+            notes: record
+                .metadata
+                .iter()
+                .filter_map(|(k, text)| Some((k.strip_prefix(NOTE)?.to_owned(), text.clone())))
+                .collect(),
         };
         let seed = needed("seed")?;
         let seed = seed.parse().map_err(|_| CheckpointError::new(format!("`{seed}` is no seed")))?;

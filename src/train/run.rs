@@ -2,7 +2,7 @@
 
 use super::settings::Stop;
 use super::trainer::{Tick, Trainer};
-use crate::eval::{Evaluation, Rollout, episodes};
+use crate::eval::{Episode, Evaluation, Rollout, episodes};
 use crate::nn::NetworkTensor;
 use crate::rng::{Purpose, Rng};
 
@@ -51,22 +51,45 @@ impl Run {
     /// One transition, its updates, and the evaluation that is due after it.
     pub fn advance(&mut self) -> Progress {
         let tick = self.trainer.step();
-        let every = self.trainer.settings.evaluate_every;
+        let evaluation = self.due().map(|seed| self.evaluate_from(seed));
+        Progress { tick, evaluation }
+    }
+
+    /// The seed of the evaluation that is due now, if one is: for a shell that plays it in slices, hands the episodes to
+    /// [`Run::take_in`] and trains on by [`Trainer::step`]. [`Run::advance`] is all of that in one.
+    pub fn due(&mut self) -> Option<u64> {
+        let (step, every) = (self.trainer.step, self.trainer.settings.evaluate_every);
         // An ε-move leaves the number of steps as it was: it must not evaluate a second time.
-        let due = every > 0 && tick.step % every == 0 && tick.step > self.last_evaluated;
-        Progress { tick, evaluation: due.then(|| self.evaluate()) }
+        let due = every > 0 && step % every == 0 && step > self.last_evaluated;
+        due.then(|| {
+            self.last_evaluated = step;
+            self.next_seed()
+        })
     }
 
     /// Evaluates the greedy policy as it is now, and keeps it if it is the best so far.
     pub fn evaluate(&mut self) -> Evaluation {
+        self.last_evaluated = self.trainer.step;
+        let seed = self.next_seed();
+        self.evaluate_from(seed)
+    }
+
+    /// 53 bits: every JSON reader can say which seed it was.
+    fn next_seed(&mut self) -> u64 {
+        self.seeds.bits() >> 11
+    }
+
+    fn evaluate_from(&mut self, seed: u64) -> Evaluation {
         let settings = self.trainer.settings;
-        let step = self.trainer.step;
-        self.last_evaluated = step;
-        // 53 bits: every JSON reader can say which seed it was.
-        let seed = self.seeds.bits() >> 11;
         let allowed = Some(settings.evaluation_failures);
         let played = episodes(&mut self.rollout, &mut self.trainer.learner, settings.evaluation_runs, allowed, seed);
-        let evaluation = Evaluation::of(&played, seed);
+        self.take_in(&played, seed)
+    }
+
+    /// Takes in the episodes of an evaluation of the greedy policy as it is now, and keeps it if it is the best so far.
+    pub fn take_in(&mut self, played: &[Episode], seed: u64) -> Evaluation {
+        let step = self.trainer.step;
+        let evaluation = Evaluation::of(played, seed);
         if evaluation.perfect() && self.first_perfect_step.is_none() {
             self.first_perfect_step = Some(step);
         }

@@ -209,6 +209,11 @@ impl Trainer {
         &self.product
     }
 
+    /// The control applied last, one number in `[-1, 1]` per action channel.
+    pub fn control(&self) -> &[f32] {
+        &self.control
+    }
+
     /// The learner.
     pub fn learner(&self) -> &ModularDdpg {
         &self.learner

@@ -20,6 +20,7 @@ export class Refused extends Error {
  * @property {(reply: Extract<Reply, { kind: 'frame' }>) => void} frame
  * @property {(reply: Extract<Reply, { kind: 'telemetry' }>) => void} telemetry
  * @property {(reply: Extract<Reply, { kind: 'evaluation' }>) => void} evaluation
+ * @property {(reply: Extract<Reply, { kind: 'finished' }>) => void} finished
  * @property {(message: string) => void} broken
  */
 
@@ -99,6 +100,9 @@ export class Client {
         break;
       case 'evaluation':
         this.listeners.evaluation(reply);
+        break;
+      case 'finished':
+        this.listeners.finished(reply);
         break;
     }
   }

@@ -2,7 +2,7 @@
 // Wires the parts: one worker, one state, one clock; every view reads the same frame.
 
 import { Client, Refused } from './client.js';
-import { byId, element, forgetColours, offer, setText } from './dom.js';
+import { byId, count, element, forgetColours, offer, setText } from './dom.js';
 import { Player, Recorder, happenings } from './player.js';
 import { Frame } from './protocol.js';
 import { initialState, readHash, writeHash } from './state.js';
@@ -73,6 +73,12 @@ class App {
       },
       evaluation: ({ generation, progress }) => {
         if (generation === this.generation) this.evaluation.update(progress);
+      },
+      finished: ({ generation, first_perfect_step }) => {
+        if (generation !== this.generation) return;
+        this.notice(first_perfect_step === null
+          ? 'Training has used up the budget of its recipe. Press Train to go on.'
+          : `Learned: every run of the evaluation after ${count(first_perfect_step)} steps satisfies the task. Press Train to go on.`);
       },
       broken: (message) => this.mend(message),
     });

@@ -100,7 +100,7 @@ export class Recorder {
 
   /** @param {Frame} frame */
   add(frame) {
-    const number = frame.number('episode');
+    const number = frame.counter('episode');
     if (number !== this.number) this.frames = [];
     this.number = number;
     this.frames.push(frame.data.slice(frame.base, frame.base + frame.length));

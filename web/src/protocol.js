@@ -21,9 +21,9 @@
 /** @typedef {{ version: number, length: number, fields: Field[] }} Layout */
 /** @typedef {{ name: string, unit: string, low: number, high: number }} Channel */
 /** @typedef {{ name: string, meaning: string }} Proposition */
-/** @typedef {{ id: number, name: string, initial: boolean, sink: boolean, sets: number[] }} AutomatonState */
-/** @typedef {{ from: number, to: number, guard: string, sets: number[], epsilon: boolean }} AutomatonEdge */
-/** @typedef {{ states: AutomatonState[], edges: AutomatonEdge[], sets: number }} AutomatonGraph */
+/** @typedef {{ id: number, name: string, sink: boolean, deterministic: boolean, reachable: boolean, marks: number[] }} AutomatonState */
+/** @typedef {{ from: number, to: number, kind: 'letter' | 'epsilon', label: string, marks: number[] }} AutomatonEdge */
+/** @typedef {{ propositions: string[], initial: number, sets: number, states: AutomatonState[], edges: AutomatonEdge[] }} AutomatonGraph */
 /** @typedef {{ kind: 'disc', centre: [number, number], radius: number } | { kind: 'polygon', points: [number, number][] } | { kind: 'band', channel: number, low: number, high: number }} Shape */
 /** @typedef {{ proposition: number, name: string, shape: Shape, margin: number }} Region */
 /** @typedef {{ kind: 'ball', radius: number, position: [number, number], velocity: [number, number] } | { kind: 'cart_pole', position: number, angle: number, pole_length: number } | { kind: 'rover', position: [number, number], reach: number }} Body */
@@ -36,7 +36,7 @@
 /**
  * Everything about an open session that does not change from step to step.
  * @typedef {object} Description
- * @property {{ name: string, title: string, preset: string, presets: string[], max_steps: number, text: string }} task
+ * @property {{ name: string, title: string, description: string, preset: string, presets: string[], max_steps: number, text: string }} task
  * @property {FormulaFacts} formula
  * @property {{ name: string, dt: number, state: Channel[], action: Channel[], propositions: Proposition[], scene: Scene }} environment
  * @property {AutomatonGraph} automaton
@@ -52,7 +52,7 @@
  * The verdict on a text that the user types; positions count UTF-16 units, as the page's own strings do.
  * @typedef {{ ok: true, facts: FormulaFacts } | { ok: false, error: Located }} FormulaVerdict
  */
-/** @typedef {{ ok: true, states: number, sets: number, propositions: string[] } | { ok: false, error: Located }} HoaVerdict */
+/** @typedef {{ ok: true, facts: { states: number, sets: number, propositions: string[] } } | { ok: false, error: Located }} HoaVerdict */
 
 /**
  * Learning curves: one entry per kept point; a point is the mean over `every` episodes.
@@ -93,6 +93,8 @@
  *   | { kind: 'step' }
  *   | { kind: 'episode' }
  *   | { kind: 'rollout', index: number }
+ *   | { kind: 'begin_drive', index: number }
+ *   | { kind: 'drive', control: number[], jump: number | null }
  *   | { kind: 'evaluate', runs: number }
  *   | { kind: 'check_formula', text: string }
  *   | { kind: 'check_hoa', text: string }
@@ -108,6 +110,7 @@
  *   | { kind: 'frame', generation: number, data: Float32Array }
  *   | { kind: 'telemetry', generation: number, rate: number, training: boolean, curves: Curves, modules: ModuleStatistics[] }
  *   | { kind: 'evaluation', generation: number, progress: EvaluationProgress }
+ *   | { kind: 'finished', generation: number, first_perfect_step: number | null }
  *   | { kind: 'broken', message: string }} Reply
  */
 

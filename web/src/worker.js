@@ -20,8 +20,12 @@ const TELEMETRY = 250;
 let session = null;
 /** @type {Frame | null} */
 let frame = null;
+/** What the open environment labels its states with. @type {string[]} */
+let propositions = [];
 /** Every open, train, pause and step raises it; a loop of an older generation ends. */
 let generation = 0;
+/** Whether it was said that the recipe of this session has come to its end. */
+let told = false;
 /** The generation of the session: frames of a session that was replaced are not shown. */
 let opened = 0;
 let training = false;
@@ -102,32 +106,35 @@ async function train(mine, pace) {
       reported = now;
       sendTelemetry();
     }
+    if (open.finished && !told) {
+      // Once; whoever wants more presses Train again.
+      told = true;
+      stop();
+      sendTelemetry();
+      tell({ kind: 'finished', generation: opened, first_perfect_step: open.first_perfect_step ?? null });
+    }
     await (pace > 0 ? sleep(Math.max(SLICE, 1000 / pace / 2)) : breathe());
   }
 }
 
 /**
- * A rollout or an evaluation in slices; the last progress, or `null` when another command took over.
+ * An evaluation in slices; the last progress, or `null` when another command took over.
  * @param {number} mine
  * @param {number} runs
  */
 async function evaluate(mine, runs) {
   const open = present();
-  const evaluation = open.evaluation(runs);
-  try {
-    for (;;) {
-      if (mine !== generation || session !== open) return null;
-      const start = performance.now();
-      let more = true;
-      do more = evaluation.advance(64);
-      while (more && performance.now() - start < SLICE - 2);
-      const progress = evaluation.progress();
-      tell({ kind: 'evaluation', generation: opened, progress });
-      if (!more) return progress;
-      await breathe();
-    }
-  } finally {
-    evaluation.free();
+  open.begin_evaluation(runs);
+  for (;;) {
+    if (mine !== generation) return null;
+    const start = performance.now();
+    let more = true;
+    do more = open.advance_evaluation(64);
+    while (more && performance.now() - start < SLICE - 2);
+    const progress = open.evaluation();
+    if (progress) tell({ kind: 'evaluation', generation: opened, progress });
+    if (!more) return progress;
+    await breathe();
   }
 }
 
@@ -136,10 +143,12 @@ function replace(next) {
   generation++;
   opened++;
   training = false;
+  told = false;
   rate = 0;
   session?.free();
   session = next;
   const description = next.describe();
+  propositions = description.environment.propositions.map((p) => p.name);
   frame = new Frame(description.layout);
   return { generation: opened, description };
 }
@@ -203,16 +212,20 @@ function obey(command) {
       const episode = present().rollout(BigInt(command.index));
       return { generation: opened, episode };
     }
+    case 'begin_drive':
+      return { generation: opened, data: present().begin_drive(BigInt(command.index)) };
+    case 'drive':
+      return { generation: opened, data: present().drive(Float32Array.from(command.control), command.jump ?? undefined) };
     case 'evaluate':
       stop();
       sendTelemetry();
       return evaluate(generation, command.runs);
     case 'check_formula':
-      return check_formula(command.text);
+      return check_formula(command.text, propositions);
     case 'check_hoa':
       return check_hoa(command.text);
     case 'save':
-      return present().save(command.replay);
+      return command.replay ? present().save() : present().save_small();
   }
 }
 

@@ -5,6 +5,7 @@ import { colourClass, setName, shapeName, shapePath, stateName } from '../palett
 import { setText } from '../dom.js';
 
 /** @typedef {import('../protocol.js').AutomatonGraph} AutomatonGraph */
+/** @typedef {import('../protocol.js').AutomatonEdge} AutomatonEdge */
 /** @typedef {import('../protocol.js').Frame} Frame */
 /** @typedef {{ renderSVGElement: (dot: string) => SVGSVGElement }} Viz */
 
@@ -14,39 +15,46 @@ const quote = (s) => `"${s.replace(/\\/g, '\\\\').replace(/"/g, '\\"')}"`;
 /** Stands in a label for the shape of a set until the layout is known: as wide as one letter. */
 const PLACE = '\u25CF';
 
-/** Long guards are broken at their disjunctions. @param {string} guard */
-const broken = (guard) => (guard.length > 28 ? guard.split(' ∨ ').join(' ∨\n') : guard);
+/** A label in the signs of logic. @param {string} label */
+export const logical = (label) => label.replaceAll('!', '¬').replaceAll('&', '∧').replaceAll('|', '∨').replace(/^true$/, '⊤');
+
+/** Long labels are broken at their disjunctions. @param {string} label */
+const broken = (label) => (label.length > 24 ? label.split(' ∨ ').join(' ∨\n') : label);
 
 /**
  * The graph in DOT. Nodes have the ids `q0 …`, edges `e0 …`; letters are measured as those of a fixed-width font.
  * @param {AutomatonGraph} graph
+ * @param {'LR' | 'TB'} direction
  */
-export function toDot(graph) {
-  const wide = graph.states.length > 8;
+export function toDot(graph, direction) {
   const lines = [
     'digraph {',
-    `rankdir=${wide ? 'TB' : 'LR'}; bgcolor=transparent; nodesep=0.45; ranksep=0.6; margin=0.05;`,
+    `rankdir=${direction}; bgcolor=transparent; nodesep=0.4; ranksep=0.45; margin=0.05;`,
     'node [shape=circle, fontname="Courier", fontsize=13, width=0.5, fixedsize=true];',
     'edge [fontname="Courier", fontsize=12, arrowsize=0.7];',
     'start [shape=point, width=0.06, class="start"];',
+    `start -> ${graph.initial} [class="start"];`,
   ];
   for (const state of graph.states) {
-    const classes = ['state', state.sink ? 'sink' : '', state.sets.length > 0 ? 'accepting' : ''].filter(Boolean).join(' ');
-    lines.push(`${state.id} [id="q${state.id}", class=${quote(classes)}, label=${quote(stateName(state.id))}, tooltip=${quote(state.name)}${state.sets.length > 0 ? ', shape=doublecircle' : ''}];`);
-    if (state.initial) lines.push(`start -> ${state.id} [class="start"];`);
+    if (!state.reachable) continue;
+    const classes = ['state', state.sink ? 'sink' : '', state.marks.length > 0 ? 'accepting' : ''].filter(Boolean).join(' ');
+    lines.push(`${state.id} [id="q${state.id}", class=${quote(classes)}, label=${quote(stateName(state.id))}, tooltip=${quote(state.name)}${state.marks.length > 0 ? ', shape=doublecircle' : ''}];`);
   }
-  const marked = graph.states.map((s) => new Set(s.sets));
   graph.edges.forEach((edge, k) => {
-    // A state that carries its sets itself does not repeat them on the edges that enter it.
-    const own = edge.sets.filter((set) => !marked[edge.to].has(set));
-    const label = (edge.epsilon ? 'ε' : broken(edge.guard)) + (own.length > 0 ? ` ${PLACE.repeat(own.length)}` : '');
-    const classes = [edge.epsilon ? 'epsilon' : '', graph.states[edge.to].sink ? 'to-sink' : ''].filter(Boolean).join(' ');
+    if (!graph.states[edge.from].reachable) return;
+    const own = ownMarks(graph, edge);
+    const label = broken(logical(edge.label)) + (own.length > 0 ? ` ${PLACE.repeat(own.length)}` : '');
+    const jump = edge.kind === 'epsilon';
+    const classes = [jump ? 'epsilon' : '', graph.states[edge.to].sink ? 'to-sink' : ''].filter(Boolean).join(' ');
     // Blanks around a label keep it off its edge.
-    lines.push(`${edge.from} -> ${edge.to} [id="e${k}", class=${quote(classes)}, label=${quote(` ${label} `)}${edge.epsilon ? ', style=dashed' : ''}];`);
+    lines.push(`${edge.from} -> ${edge.to} [id="e${k}", class=${quote(classes)}, label=${quote(` ${label} `)}${jump ? ', style=dashed' : ''}];`);
   });
   lines.push('}');
   return lines.join('\n');
 }
+
+/** The sets of an edge that the state it enters does not carry itself. @param {AutomatonGraph} graph @param {AutomatonEdge} edge */
+const ownMarks = (graph, edge) => edge.marks.filter((set) => !graph.states[edge.to].marks.includes(set));
 
 /**
  * The graph in words, for those who hear the page.
@@ -54,7 +62,7 @@ export function toDot(graph) {
  */
 export function inWords(graph) {
   const sinks = graph.states.filter((s) => s.sink).length;
-  const jumps = graph.edges.filter((e) => e.epsilon).length;
+  const jumps = graph.edges.filter((e) => e.kind === 'epsilon').length;
   return `Automaton with ${graph.states.length} states${sinks ? `, ${sinks} of them a sink` : ''}, ${graph.edges.length - jumps} edges`
     + `${jumps ? `, ${jumps} ε-jumps` : ''} and ${graph.sets} accepting ${graph.sets === 1 ? 'set' : 'sets'}: `
     + Array.from({ length: graph.sets }, (_, k) => `${setName(k)} a ${shapeName(k)}`).join(', ');
@@ -74,7 +82,7 @@ function badge(set, x, y, radius) {
 /** Replaces the places in edge labels by shapes and puts the shapes of states onto them. @param {SVGSVGElement} svg @param {AutomatonGraph} graph */
 function decorate(svg, graph) {
   graph.edges.forEach((edge, k) => {
-    const own = edge.sets.filter((set) => !graph.states[edge.to].sets.includes(set));
+    const own = ownMarks(graph, edge);
     if (own.length === 0) return;
     const text = [...svg.querySelectorAll(`[id="e${k}"] text`)].pop();
     if (!text?.textContent) return;
@@ -91,7 +99,7 @@ function decorate(svg, graph) {
     const ellipse = svg.querySelector(`[id="q${state.id}"] ellipse:last-of-type`);
     if (!ellipse) continue;
     const [x, y, r] = ['cx', 'cy', 'rx'].map((a) => Number(ellipse.getAttribute(a)));
-    state.sets.forEach((set, j) => {
+    state.marks.forEach((set, j) => {
       const angle = -Math.PI / 4 + (j * Math.PI) / 5;
       ellipse.parentElement?.append(badge(set, x + (r + 1) * Math.cos(angle), y + (r + 1) * Math.sin(angle), 5));
     });
@@ -123,20 +131,31 @@ export class Automaton {
     this.edge = -2;
     const viz = await this.loadViz();
     if (turn !== this.turn) return;
-    const svg = viz.renderSVGElement(toDot(graph));
+    const svg = this.fitting(viz, graph);
     svg.querySelectorAll('title').forEach((title) => title.remove());
     svg.setAttribute('role', 'img');
     svg.setAttribute('aria-label', inWords(graph));
     const [, , width, height] = (svg.getAttribute('viewBox') ?? '0 0 1 1').split(' ').map(Number);
     svg.removeAttribute('width');
     svg.removeAttribute('height');
-    // Never larger than 1.5 times its natural size: a graph of two states need not shout.
-    svg.style.maxWidth = `${width * 2}px`;
-    svg.style.maxHeight = `${height * 2}px`;
+    // A graph of two states need not shout.
+    svg.style.maxWidth = `${width * 1.8}px`;
+    svg.style.maxHeight = `${height * 1.8}px`;
     decorate(svg, graph);
     this.root.replaceChildren(svg);
     this.q = -1;
     this.edge = -2;
+  }
+
+  /** The drawing, from left to right or from top to bottom, whichever shows larger. @param {Viz} viz @param {AutomatonGraph} graph */
+  fitting(viz, graph) {
+    const { width, height } = this.root.getBoundingClientRect();
+    const scale = (/** @type {SVGSVGElement} */ svg) => {
+      const [, , w, h] = (svg.getAttribute('viewBox') ?? '0 0 1 1').split(' ').map(Number);
+      return Math.min(width / w, Math.max(height, 190) / h);
+    };
+    const [wide, tall] = /** @type {const} */ (['LR', 'TB']).map((direction) => viz.renderSVGElement(toDot(graph, direction)));
+    return scale(wide) >= scale(tall) ? wide : tall;
   }
 
   /** @param {Frame} frame */
@@ -150,7 +169,7 @@ export class Automaton {
       this.mark(`e${this.edge}`, `e${edge}`, 'last');
       this.edge = edge;
       const taken = this.graph?.edges[edge];
-      setText(this.now, taken ? `${stateName(taken.from)} → ${stateName(taken.to)} on ${taken.epsilon ? 'ε' : taken.guard}` : `in ${stateName(q)}`);
+      setText(this.now, taken ? `${stateName(taken.from)} → ${stateName(taken.to)} on ${logical(taken.label)}` : `in ${stateName(q)}`);
     }
   }
 

@@ -97,7 +97,7 @@ export class Controls {
   /** @param {Frame} frame */
   update(frame) {
     setText(this.places.steps, count(frame.counter('step')));
-    setText(this.places.episodes, count(frame.number('episode')));
+    setText(this.places.episodes, count(frame.counter('episode')));
     setText(this.places.updates, count(frame.counter('updates')));
   }
 }

@@ -25,7 +25,7 @@ export class Frontier {
     this.sets = Array.from({ length: graph.sets }, (_, k) =>
       element('li', { className: `chip ${colourClass(k)}`, title: `${setName(k)}, drawn as a ${shapeName(k)}` }, shapeIcon(k), setName(k)));
     this.states = graph.states
-      .filter((s) => !s.initial && !s.sink)
+      .filter((s) => s.id !== graph.initial && !s.sink && s.reachable)
       .map((s) => ({ id: s.id, chip: element('li', { className: 'chip plain', title: s.name }, stateName(s.id)) }));
     this.roots.sets.replaceChildren(...this.sets);
     this.roots.states.replaceChildren(...this.states.map((s) => s.chip));

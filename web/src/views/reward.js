@@ -21,6 +21,7 @@ export function rewardSentence(frame, sets) {
     parts.push(`${fresh.join(' and ')} was in the frontier and is visited: this pays.`);
     if (frame.number('closes_round') === 1) parts.push('All sets are visited: a round is closed and the frontier is refilled.');
   } else if (frame.number('accepting_reward') !== 0) parts.push('An accepting set is visited: this pays.');
+  if (frame.number('sink_reward') !== 0) parts.push('Reaching a sink has a reward of its own.');
   if (frame.number('shaping_reached') > 0) parts.push('Shaping pays for an automaton state that is new in this round.');
   if (frame.number('shaping_left') < 0) parts.push('The shaping of the state that was left is given back.');
   if (frame.number('end') === END.terminated) parts.push('The run has ended: nothing can be earned from here.');

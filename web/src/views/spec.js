@@ -204,8 +204,9 @@ export class Spec {
       const verdict = await this.actions.checkHoa(text);
       if (turn !== this.turn) return;
       hoaApply.disabled = !verdict.ok || text === this.openedHoa;
-      if (verdict.ok) this.sayHoa(`${verdict.states} states, ${verdict.sets} accepting ${verdict.sets === 1 ? 'set' : 'sets'}, propositions ${verdict.propositions.join(', ') || '(none)'}`);
-      else this.refuseHoa(verdict.error);
+      if (!verdict.ok) return this.refuseHoa(verdict.error);
+      const { states, sets, propositions } = verdict.facts;
+      this.sayHoa(`${states} states, ${sets} accepting ${sets === 1 ? 'set' : 'sets'}, propositions ${propositions.join(', ') || '(none)'}`);
     } catch (error) {
       if (turn === this.turn) this.sayHoa(String(error), true);
     }

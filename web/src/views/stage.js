@@ -121,7 +121,7 @@ export class Stage {
    * @param {Frame} frame
    */
   live(frame) {
-    const episode = frame.number('episode');
+    const episode = frame.counter('episode');
     if (episode !== this.recentEpisode) this.recent = [];
     this.recentEpisode = episode;
     const state = frame.numbers('state').slice(0, this.channels);

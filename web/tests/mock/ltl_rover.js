@@ -4,10 +4,10 @@
 /** @typedef {import('../../src/protocol.js').Field} Field */
 
 const FIELDS = /** @type {[string, number][]} */ ([
-  ['source', 1], ['step', 2], ['updates', 2], ['episode', 1], ['episode_step', 1], ['rounds', 1], ['q', 1], ['q_before', 1], ['edge', 1],
-  ['module', 1], ['epsilon', 1], ['letter', 4], ['frontier', 2], ['unvisited', 1], ['fresh', 2], ['closes_round', 1], ['end', 1],
-  ['reward', 1], ['discount', 1], ['accepting_reward', 1], ['shaping_reached', 1], ['shaping_left', 1], ['return', 1], ['total', 1],
-  ['critic_loss', 1], ['actor_loss', 1], ['state', 4], ['action', 2],
+  ['source', 1], ['step', 2], ['updates', 2], ['episode', 2], ['episode_step', 1], ['rounds', 1], ['q', 1], ['q_before', 1], ['edge', 1],
+  ['module', 1], ['epsilon', 1], ['jumps', 1], ['letter', 4], ['frontier', 2], ['unvisited', 1], ['visited', 2], ['fresh', 2], ['closes_round', 1],
+  ['end', 1], ['reward', 1], ['discount', 1], ['accepting_reward', 1], ['sink_reward', 1], ['shaping_reached', 1], ['shaping_left', 1],
+  ['return', 1], ['losses', 3], ['state', 4], ['action', 2],
 ]);
 
 /** @returns {import('../../src/protocol.js').Layout} */
@@ -75,7 +75,7 @@ export function check_formula(text) {
 
 /** @param {string} text */
 export function check_hoa(text) {
-  if (text.startsWith('HOA: v1')) return { ok: true, states: 2, sets: 2, propositions: ['r1', 'r2'] };
+  if (text.startsWith('HOA: v1')) return { ok: true, facts: { states: 2, sets: 2, propositions: ['r1', 'r2'] } };
   return { ok: false, error: { message: 'an automaton begins with "HOA: v1"', hint: '', start: 0, end: 1, line: 1, column: 1 } };
 }
 
@@ -98,16 +98,17 @@ export class Session {
     /** @type {any} */
     this.request = { task: 'ball_pass_b1', seed: 1n };
     this.steps = 0;
+    this.trial = { wanted: 0, runs: 0 };
   }
   free() {}
   describe() {
     return {
-      task: { name: this.request.task, title: 'Ball-Pass, φ_B1', preset: this.request.preset ?? 'fast', presets: ['fast', 'paper'], max_steps: 200, text: '' },
+      task: { name: this.request.task, title: 'Ball-Pass, φ_B1', description: '', preset: this.request.preset ?? 'fast', presets: ['fast', 'paper'], max_steps: 200, text: '' },
       formula: facts(this.request.formula ?? 'G F r1 & G F r2'),
       environment: {
         name: 'ball_pass',
         dt: 0.05,
-        state: ['x', 'y'].map((name) => ({ name, unit: 'm', low: 0, high: 600 })),
+        state: ['x', 'y', 'v_x', 'v_y'].map((name) => ({ name, unit: 'm', low: 0, high: 600 })),
         action: ['a_x', 'a_y'].map((name) => ({ name, unit: 'm/s²', low: -600, high: 600 })),
         propositions: [{ name: 'r1', meaning: 'the ball is in region 1' }, { name: 'r2', meaning: 'the ball is in region 2' }],
         scene: {
@@ -117,12 +118,14 @@ export class Session {
         },
       },
       automaton: {
+        propositions: ['r1', 'r2'],
+        initial: 0,
         sets: 2,
-        states: [{ id: 0, name: '', initial: true, sink: false, sets: [] }, { id: 1, name: '', initial: false, sink: false, sets: [] }],
+        states: [0, 1].map((id) => ({ id, name: '', sink: false, deterministic: true, reachable: true, marks: /** @type {number[]} */ ([]) })),
         edges: [
-          { from: 0, to: 0, guard: '¬r2', sets: [], epsilon: false }, { from: 0, to: 1, guard: 'r2', sets: [1], epsilon: false },
-          { from: 1, to: 1, guard: '¬r1', sets: [], epsilon: false }, { from: 1, to: 0, guard: 'r1', sets: [0], epsilon: false },
-        ],
+          { from: 0, to: 0, label: '!r2', marks: /** @type {number[]} */ ([]) }, { from: 0, to: 1, label: 'r2', marks: [1] },
+          { from: 1, to: 1, label: '!r1', marks: [] }, { from: 1, to: 0, label: 'r1', marks: [0] },
+        ].map((edge) => ({ ...edge, kind: /** @type {const} */ ('letter') })),
       },
       hoa: 'HOA: v1\n',
       modules: ['q0', 'q1'],
@@ -157,18 +160,36 @@ export class Session {
   statistics() {
     return ['q0', 'q1'].map((name, k) => ({ name, visits: Math.floor(this.steps / (k + 2)), replay: Math.min(50000, this.steps), capacity: 50000, updates: this.steps, critic: 0.01, actor: -0.2 }));
   }
-  /** @param {number} wanted */
-  evaluation(wanted) {
-    let runs = 0;
-    return {
-      advance: () => ++runs < wanted,
-      progress: () => ({ wanted, runs, successes: runs, low: 0.98, high: 1, rounds_mean: 2, sink_rate: 0, seed: 1 }),
-      free() {},
-    };
+  /** @param {number} runs */
+  begin_evaluation(runs) {
+    this.trial = { wanted: runs, runs: 0 };
   }
-  /** @param {boolean} _replay */
-  save(_replay) {
+  /** @param {number} _steps */
+  advance_evaluation(_steps) {
+    return ++this.trial.runs < this.trial.wanted;
+  }
+  evaluation() {
+    return { ...this.trial, successes: this.trial.runs, low: 0.98, high: 1, rounds_mean: 2, sink_rate: 0, seed: 1 };
+  }
+  get finished() {
+    return false;
+  }
+  get first_perfect_step() {
+    return undefined;
+  }
+  /** @param {bigint} _index */
+  begin_drive(_index) {
+    return row(0, 0);
+  }
+  /** @param {Float32Array} _control */
+  drive(_control) {
+    return row(1, 0);
+  }
+  save() {
     return new Uint8Array([1, 2, 3]);
+  }
+  save_small() {
+    return new Uint8Array([1]);
   }
 }
 

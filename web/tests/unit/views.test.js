@@ -72,17 +72,22 @@ test('the recorder keeps one episode and copies what it is given', () => {
 });
 
 test('the graph in DOT quotes what it is given and keeps ids, sets and sinks apart', () => {
+  const flags = { deterministic: true, reachable: true };
   const dot = toDot({
-    sets: 2,
-    states: [{ id: 0, name: 'say "G"\\', initial: true, sink: false, sets: [0] }, { id: 1, name: '', initial: false, sink: true, sets: [] }],
-    edges: [{ from: 0, to: 1, guard: '¬"x"', sets: [], epsilon: false }, { from: 1, to: 0, guard: 'a', sets: [0, 1], epsilon: false }, { from: 0, to: 0, guard: '', sets: [0], epsilon: true }],
-  });
+    propositions: ['a'], initial: 0, sets: 2,
+    states: [{ id: 0, name: 'say "G"\\', sink: false, marks: [0], ...flags }, { id: 1, name: '', sink: true, marks: [], ...flags }, { id: 2, name: '', sink: false, marks: [], ...flags, reachable: false }],
+    edges: [
+      { from: 0, to: 1, kind: 'letter', label: '!"x" | true & a', marks: [] }, { from: 1, to: 0, kind: 'letter', label: 'true', marks: [0, 1] },
+      { from: 0, to: 0, kind: 'epsilon', label: 'ε', marks: [0] }, { from: 2, to: 0, kind: 'letter', label: 'a', marks: [] },
+    ],
+  }, 'LR');
   assert.match(dot, /tooltip="say \\"G\\"\\\\"/);
   assert.match(dot, /0 \[id="q0", class="state accepting".*doublecircle/);
   assert.match(dot, /1 \[id="q1", class="state sink"/);
-  assert.match(dot, /label=" ¬\\"x\\" "/);
-  assert.match(dot, /1 -> 0 \[id="e1".*label=" a ● "/, 'the set that the state carries is not repeated on the edge');
+  assert.match(dot, /label=" ¬\\"x\\" ∨ true ∧ a "/);
+  assert.match(dot, /1 -> 0 \[id="e1".*label=" ⊤ ● "/, 'the set that the state carries is not repeated on the edge');
   assert.match(dot, /0 -> 0 \[id="e2", class="epsilon", label=" ε ", style=dashed/);
+  assert.doesNotMatch(dot, /^2 /m, 'what cannot be reached is not drawn');
 });
 
 test('the graph in words names the shapes of the sets', () => {

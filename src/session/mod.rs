@@ -1,0 +1,34 @@
+//! What a shell may ask: open a task, describe it, advance training, read its numbers, roll out, evaluate, drive, save, restore.
+//!
+//! A [`Session`] owns one [`Trainer`](crate::train::Trainer) and nothing of the outside: no file, no clock, no screen. A shell gives
+//! it texts and step counts, and reads back
+//!
+//! - once, a [`Description`]: the task, the formula, the automaton as a [`Graph`](crate::automaton::Graph), the scene, the [`Layout`] of frames;
+//! - after each slice of work, one frame: a flat array of `f32` whose places the layout names;
+//! - now and then, [`Curves`] and [`ModuleStatistics`];
+//! - on demand, an [`EpisodeTrace`] (frames of a greedy episode, row by row), a [`TrialProgress`], a checkpoint.
+//!
+//! Texts that a user types are judged by [`check_formula`] and [`check_hoa`]; every refusal is a [`Refusal`] with its place.
+
+mod builtin;
+mod check;
+mod curves;
+mod describe;
+mod drive;
+mod edges;
+mod frame;
+mod open;
+mod refusal;
+mod session;
+mod trial;
+
+pub use builtin::{TaskEntry, builtin_tasks};
+pub use check::{FormulaFacts, HoaFacts, Remark, check_formula, check_hoa};
+pub use curves::{CurveRecorder, Curves, EpisodeOutcome};
+pub use describe::{Description, EnvironmentFacts, PropositionFacts, Setting, TaskFacts};
+pub use edges::EdgeIndex;
+pub use frame::{Counters, FrameWriter, LAYOUT_VERSION, Layout, LayoutField, Source};
+pub use open::OpenRequest;
+pub use refusal::{Place, Refusal, Subject};
+pub use session::{EpisodeTrace, ModuleStatistics, Session};
+pub use trial::{Trial, TrialProgress};

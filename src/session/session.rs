@@ -1,0 +1,388 @@
+//! The session itself: one run of training, and everything that can be read from it or done with its policy.
+
+use super::curves::{CurveRecorder, Curves, EpisodeOutcome};
+use super::describe::{Description, EnvironmentFacts, TaskFacts, settings};
+use super::drive::Drive;
+use super::edges::EdgeIndex;
+use super::frame::{Counters, FrameWriter, Layout, Source};
+use super::open::{OpenRequest, Opened, written};
+use super::refusal::{Refusal, Subject};
+use super::trial::{Trial, TrialProgress};
+use super::{FormulaFacts, builtin};
+use crate::agent::Replays;
+use crate::automaton::{EmbeddedState, StateId};
+use crate::ltl::Formula;
+use crate::rng::{Purpose, Rng};
+use crate::task::{Setup, TaskError};
+use crate::train::{Checkpoint, CheckpointError, End, Run, Tick};
+use serde::Serialize;
+
+/// The most episodes that one evaluation plays.
+const MAX_RUNS: u32 = 100_000;
+
+/// The note of a checkpoint that holds the learning curves.
+const CURVES: &str = "curves";
+
+/// How much cheaper a move of an evaluation is than a step of training with its updates.
+const TRIAL_MOVES: u32 = 8;
+
+/// One greedy episode, frame by frame.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct EpisodeTrace {
+    /// How many frames there are: the start, and one per move.
+    pub rows: usize,
+    /// The frames, end to end.
+    pub data: Vec<f32>,
+    /// Completed rounds.
+    pub rounds: u32,
+    /// Whether it satisfies the task.
+    pub success: bool,
+}
+
+/// How a module has fared.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ModuleStatistics {
+    /// What it is in charge of.
+    pub name: String,
+    /// Moves it has chosen while training.
+    pub visits: u64,
+    /// Samples in its replay.
+    pub replay: usize,
+    /// Samples that its replay can hold.
+    pub capacity: usize,
+    /// Updates of its networks.
+    pub updates: u64,
+    /// Its critic's loss at the last update.
+    pub critic: f32,
+    /// Its actor's loss at the last update.
+    pub actor: f32,
+}
+
+/// What one module has done, as far as ticks tell.
+#[derive(Clone, Copy, Default, Debug)]
+struct Activity {
+    visits: u64,
+    updates: u64,
+    critic: f32,
+    actor: f32,
+}
+
+/// An open task under training.
+pub struct Session {
+    setup: Setup,
+    name: String,
+    hoa: String,
+    seed: u64,
+    run: Run,
+    edges: EdgeIndex,
+    layout: Layout,
+    curves: CurveRecorder,
+    activity: Vec<Activity>,
+    last: Option<Tick>,
+    /// Σ R(x') of the present episode, and Σ and number of its critic losses.
+    total: f64,
+    critic: (f64, u32),
+    /// A periodic evaluation of training that is going on.
+    check: Option<Trial>,
+    trial: Option<Trial>,
+    drive: Option<Drive>,
+}
+
+impl Session {
+    /// Opens a task with a fresh learner.
+    ///
+    /// # Errors
+    /// What is wrong with the task, formula, automaton, preset or overrides, and where.
+    pub fn open(request: &OpenRequest) -> Result<Session, Refusal> {
+        let Opened { setup, name, hoa } = request.open()?;
+        let run = setup.run(request.seed);
+        Ok(Session::around(setup, name, hoa, run))
+    }
+
+    fn around(setup: Setup, name: String, hoa: String, run: Run) -> Session {
+        let edges = EdgeIndex::new(setup.automaton().clone());
+        let product = run.trainer().product();
+        let spec = product.environment().spec();
+        let layout = Layout::new(setup.automaton().len(), spec.state.len(), spec.action.len());
+        let activity = vec![Activity::default(); run.trainer().learner().modules().len()];
+        Session {
+            seed: run.seed(),
+            setup,
+            name,
+            hoa,
+            run,
+            edges,
+            layout,
+            curves: CurveRecorder::default(),
+            activity,
+            last: None,
+            total: 0.0,
+            critic: (0.0, 0),
+            check: None,
+            trial: None,
+            drive: None,
+        }
+    }
+
+    /// Everything that does not change from step to step.
+    pub fn describe(&self) -> Description {
+        let task = self.setup.task();
+        let product = self.run.trainer().product();
+        let environment = EnvironmentFacts::new(product.environment());
+        let known: Vec<String> = environment.propositions.iter().map(|p| p.name.clone()).collect();
+        let text = &task.file().specification.ltl;
+        let reading = Formula::read(text).expect("the task's formula was parsed when it was opened");
+        let modules = self.run.trainer().learner().modules();
+        let preset = toml::Value::try_from(self.setup.preset()).expect("a preset is made of tables, numbers and texts");
+        Description {
+            task: TaskFacts {
+                name: self.name.clone(),
+                title: task.file().title.clone(),
+                description: task.file().description.clone(),
+                preset: self.setup.preset_name().to_owned(),
+                presets: builtin::presets(task),
+                max_steps: self.setup.rollout_settings().max_steps,
+                text: task.text().to_owned(),
+            },
+            formula: FormulaFacts::new(text, &reading, &known),
+            environment,
+            automaton: self.setup.automaton().graph(),
+            hoa: self.hoa.clone(),
+            modules: (0..modules.len()).map(|m| modules.name(m).to_owned()).collect(),
+            settings: settings(&preset),
+            seed: self.seed,
+            layout: self.layout.clone(),
+        }
+    }
+
+    /// Trains for at most `steps` moves and the updates after them; the number of moves made. While a periodic evaluation of the
+    /// recipe is due, its moves are made instead, several for one.
+    pub fn advance(&mut self, steps: u32) -> u32 {
+        let mut made = 0;
+        for _ in 0..steps {
+            if self.check.is_some() {
+                self.advance_check();
+            } else {
+                let tick = self.run.trainer_mut().step();
+                made += 1;
+                self.fold(&tick);
+                self.check = self.run.due().map(|seed| {
+                    let settings = *self.run.trainer().settings();
+                    let trial = Trial::new(self.setup.rollout(seed), settings.evaluation_runs, seed);
+                    trial.giving_up_after(settings.evaluation_failures)
+                });
+            }
+        }
+        made
+    }
+
+    fn advance_check(&mut self) {
+        let check = self.check.as_mut().expect("asked only while one is going on");
+        if !check.advance(self.run.trainer_mut().learner_mut(), TRIAL_MOVES) {
+            let check = self.check.take().expect("it was there a line ago");
+            self.run.take_in(check.played(), check.seed());
+        }
+    }
+
+    fn fold(&mut self, tick: &Tick) {
+        if tick.start.is_some() {
+            (self.total, self.critic) = (0.0, (0.0, 0));
+        }
+        self.total += f64::from(tick.reward.base);
+        if let Some(module) = self.run.trainer().learner().modules().of(tick.product.from) {
+            self.activity[module].visits += 1;
+        }
+        if let Some(update) = tick.update {
+            let activity = &mut self.activity[update.module];
+            activity.updates += 1;
+            (activity.critic, activity.actor) = (update.losses.critic, update.losses.actor);
+            self.critic = (self.critic.0 + f64::from(update.losses.critic), self.critic.1 + 1);
+        }
+        if let Some(end) = tick.end {
+            self.curves.push(EpisodeOutcome {
+                steps: tick.episode_step,
+                total: self.total,
+                rounds: tick.rounds,
+                success: tick.rounds > 0 && end != End::Terminated,
+                critic: self.critic.0 / f64::from(self.critic.1.max(1)),
+            });
+        }
+        self.last = Some(*tick);
+    }
+
+    /// A checkpoint: the bytes of a file from which [`Session::restore`] opens this session again. With [`Replays::Keep`] training
+    /// goes on from it bit by bit; without, it is small, and training first fills the replays anew. A periodic evaluation that is
+    /// going on is played to its end.
+    pub fn save(&mut self, replays: Replays) -> Vec<u8> {
+        while self.check.is_some() {
+            self.advance_check();
+        }
+        let mut origin = self.setup.origin();
+        origin.notes.insert(CURVES.to_owned(), toml::to_string(&self.curves).expect("curves are made of tables and numbers"));
+        self.run.save(&origin, replays)
+    }
+
+    /// Opens a checkpoint or a policy file.
+    ///
+    /// # Errors
+    /// Bytes that are none, or whose parts do not fit together.
+    pub fn restore(bytes: &[u8]) -> Result<Session, Refusal> {
+        let refusal = |e: CheckpointError| Refusal::new(Subject::Checkpoint, e.to_string());
+        let checkpoint = Checkpoint::read(bytes).map_err(refusal)?;
+        let inside = |e: TaskError| Refusal::new(Subject::Checkpoint, e.to_string());
+        let setup = Setup::from_checkpoint(&checkpoint).map_err(inside)?;
+        let run = setup.resume(&checkpoint).map_err(refusal)?;
+        let hoa = setup.hoa().map(str::to_owned).unwrap_or_else(|| written(setup.automaton()));
+        let mut session = Session::around(setup, checkpoint.origin.task_name.clone(), hoa, run);
+        if let Some(curves) = checkpoint.origin.notes.get(CURVES) {
+            session.curves = CurveRecorder::read(curves).map_err(|e| Refusal::new(Subject::Checkpoint, e))?;
+        }
+        Ok(session)
+    }
+
+    /// Environment steps of training so far.
+    pub fn steps(&self) -> u64 {
+        self.run.trainer().steps()
+    }
+
+    /// Environment steps at the first periodic evaluation without a failure.
+    pub fn first_perfect_step(&self) -> Option<u64> {
+        self.run.first_perfect_step()
+    }
+
+    /// Whether the recipe's budget is spent, or its goal reached. Training may go on nevertheless.
+    pub fn finished(&self) -> bool {
+        self.check.is_none() && self.run.finished()
+    }
+
+    fn counters(&self) -> Counters {
+        let trainer = self.run.trainer();
+        Counters { step: trainer.steps(), updates: trainer.learner().updates(), episode: trainer.episode() }
+    }
+
+    fn initial(&self) -> StateId {
+        self.setup.automaton().initial()
+    }
+
+    /// The numbers of this moment of training, as [`Session::describe`]'s layout names them.
+    pub fn frame(&self) -> Vec<f32> {
+        let trainer = self.run.trainer();
+        let mut writer = FrameWriter::new(self.layout.clone(), Source::Training);
+        writer.counters(self.counters());
+        let steps = match &self.last {
+            Some(tick) => {
+                writer.step(&tick.product, &tick.reward, tick.end, &self.edges);
+                if let Some(update) = tick.update {
+                    writer.losses(update.module, update.losses.critic, update.losses.actor);
+                }
+                tick.episode_step
+            }
+            None => {
+                writer.unread(self.initial());
+                0
+            }
+        };
+        writer.total(self.total);
+        let module = trainer.learner().modules().of(trainer.product().at());
+        writer.product(trainer.product(), module, steps, trainer.control());
+        writer.frame().to_vec()
+    }
+
+    /// One episode of the greedy policy as it is now; `index` chooses the start.
+    pub fn rollout(&mut self, index: u64) -> EpisodeTrace {
+        let seed = start_seed(self.seed, index);
+        let mut rollout = self.setup.rollout(seed);
+        let counters = self.counters();
+        let (initial, reward) = (self.initial(), self.setup.reward().clone());
+        let learner = self.run.trainer_mut().learner_mut();
+        let mut writer = FrameWriter::new(self.layout.clone(), Source::Greedy);
+        let mut data = vec![];
+        writer.counters(counters);
+        writer.start(rollout.start(), &self.edges, initial);
+        let in_charge = |learner: &crate::agent::ModularDdpg, at: EmbeddedState| learner.modules().of(at);
+        writer.product(rollout.product(), in_charge(learner, rollout.product().at()), 0, rollout.control());
+        data.extend_from_slice(writer.frame());
+        while let Some(step) = rollout.step(learner) {
+            let end = match (step.ends(), rollout.over()) {
+                (true, _) => Some(End::Terminated),
+                (false, true) => Some(End::Truncated),
+                (false, false) => None,
+            };
+            writer.step(&step, &reward.parts(&step), end, &self.edges);
+            let episode = rollout.episode();
+            writer.total(f64::from(episode.total_reward));
+            writer.product(rollout.product(), in_charge(learner, step.to), episode.steps, rollout.control());
+            data.extend_from_slice(writer.frame());
+        }
+        let episode = rollout.episode();
+        let rows = data.len() / self.layout.length;
+        EpisodeTrace { rows, data, rounds: episode.rounds, success: episode.success() }
+    }
+
+    /// Begins an evaluation of `runs` episodes (at most 100 000) with starts drawn from the session's seed.
+    ///
+    /// # Errors
+    /// No episode, or more than are allowed.
+    pub fn begin_evaluation(&mut self, runs: u32) -> Result<(), Refusal> {
+        if !(1..=MAX_RUNS).contains(&runs) {
+            return Err(Refusal::new(Subject::Session, format!("an evaluation has 1 to {MAX_RUNS} runs, not {runs}")));
+        }
+        self.trial = Some(Trial::new(self.setup.rollout(self.seed), runs, self.seed));
+        Ok(())
+    }
+
+    /// Makes at most `steps` moves of the evaluation; whether there is more to do.
+    pub fn advance_evaluation(&mut self, steps: u32) -> bool {
+        let learner = self.run.trainer_mut().learner_mut();
+        self.trial.as_mut().is_some_and(|trial| trial.advance(learner, steps))
+    }
+
+    /// How the last evaluation stands; `None` if there was none.
+    pub fn evaluation(&self) -> Option<TrialProgress> {
+        self.trial.as_ref().map(Trial::progress)
+    }
+
+    /// Begins an episode that the user drives, and gives its first frame; `index` chooses the start.
+    pub fn begin_drive(&mut self, index: u64) -> Vec<f32> {
+        let drive = Drive::new(&self.setup, &self.layout, &self.edges, start_seed(self.seed, index));
+        let frame = drive.frame().to_vec();
+        self.drive = Some(drive);
+        frame
+    }
+
+    /// One step under the user's `control` (a number in `[-1, 1]` per action channel), or along the ε-jump to `jump`; the frame after
+    /// it. An episode that is over stays as it is.
+    ///
+    /// # Errors
+    /// No episode was begun, the control has the wrong length, or there is no such ε-jump.
+    pub fn drive(&mut self, control: &[f32], jump: Option<StateId>) -> Result<Vec<f32>, Refusal> {
+        let drive = self.drive.as_mut().ok_or_else(|| Refusal::new(Subject::Session, "no episode was begun"))?;
+        drive.step(control, jump, &self.edges)?;
+        Ok(drive.frame().to_vec())
+    }
+
+    /// The learning curves so far.
+    pub fn curves(&self) -> Curves {
+        self.curves.curves()
+    }
+
+    /// How each module has fared.
+    pub fn statistics(&self) -> Vec<ModuleStatistics> {
+        let learner = self.run.trainer().learner();
+        let each = |(m, a): (usize, &Activity)| ModuleStatistics {
+            name: learner.modules().name(m).to_owned(),
+            visits: a.visits,
+            replay: learner.samples_of(m),
+            capacity: learner.settings().replay,
+            updates: a.updates,
+            critic: a.critic,
+            actor: a.actor,
+        };
+        self.activity.iter().enumerate().map(each).collect()
+    }
+}
+
+/// The seed of the `index`-th start that a session shows.
+fn start_seed(seed: u64, index: u64) -> u64 {
+    Rng::new(seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15), Purpose::Tool).bits()
+}

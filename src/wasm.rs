@@ -1,0 +1,209 @@
+//! The browser boundary: conversions over [`Session`], and nothing decided here.
+//!
+//! Structured, rare things cross as plain JavaScript objects; numbers that cross often, as `Float32Array`s copied once. Every
+//! refusal becomes a thrown `Error` with the fields of [`Refusal`] in one place, `refused`.
+#![allow(missing_docs, reason = "what the macro makes of extern types carries no docs of its own")]
+
+use crate::agent::Replays;
+use crate::session::{self, OpenRequest, Refusal, Subject};
+use js_sys::{Error, Float32Array, Object, Reflect, Uint8Array};
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, ModuleStatistics, TaskEntry } from '../src/protocol.js';
+export interface Request {
+  task: string; formula?: string | null; hoa?: string | null; seed: bigint; preset?: string | null; overrides?: Record<string, string>;
+}
+"#;
+
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(typescript_type = "Request")]
+    pub type JsRequest;
+    #[wasm_bindgen(typescript_type = "Description")]
+    pub type JsDescription;
+    #[wasm_bindgen(typescript_type = "Episode")]
+    pub type JsEpisode;
+    #[wasm_bindgen(typescript_type = "Curves")]
+    pub type JsCurves;
+    #[wasm_bindgen(typescript_type = "ModuleStatistics[]")]
+    pub type JsStatistics;
+    #[wasm_bindgen(typescript_type = "EvaluationProgress | undefined")]
+    pub type JsProgress;
+    #[wasm_bindgen(typescript_type = "TaskEntry[]")]
+    pub type JsTasks;
+    #[wasm_bindgen(typescript_type = "FormulaVerdict")]
+    pub type JsFormulaVerdict;
+    #[wasm_bindgen(typescript_type = "HoaVerdict")]
+    pub type JsHoaVerdict;
+}
+
+/// Runs once when the module is loaded: a panic is said in the console with its place, before the trap.
+#[wasm_bindgen(start)]
+fn start() {
+    std::panic::set_hook(Box::new(|info| {
+        #[wasm_bindgen]
+        extern "C" {
+            #[wasm_bindgen(js_namespace = console)]
+            fn error(message: &str);
+        }
+        error(&format!("ltl-rover stopped, which is a fault of the program: {info}"));
+    }));
+}
+
+/// The one place where a refusal becomes a thrown value.
+fn refused(refusal: Refusal) -> JsValue {
+    let error = Error::new(&refusal.message);
+    let fields: JsValue = plain(&refusal);
+    Object::assign(&error, fields.unchecked_ref::<Object>()).into()
+}
+
+/// Plain objects, `null` for what is absent, 64-bit numbers as numbers.
+fn plain<T: JsCast>(value: &impl Serialize) -> T {
+    let serializer = Serializer::json_compatible().serialize_large_number_types_as_bigints(false);
+    value.serialize(&serializer).expect("the session's types are plain data").unchecked_into()
+}
+
+fn set(object: &JsValue, key: &str, value: impl Into<JsValue>) {
+    Reflect::set(object, &key.into(), &value.into()).expect("a plain object takes any property");
+}
+
+/// `{ ok: true, facts }`, or `{ ok: false, error }`.
+fn verdict<T: JsCast>(result: Result<impl Serialize, Refusal>) -> T {
+    let object = Object::new();
+    set(&object, "ok", result.is_ok());
+    match result {
+        Ok(facts) => set(&object, "facts", plain::<JsValue>(&facts)),
+        Err(refusal) => set(&object, "error", plain::<JsValue>(&refusal)),
+    }
+    object.unchecked_into()
+}
+
+/// The tasks that come with the page.
+#[wasm_bindgen]
+pub fn builtin_tasks() -> JsTasks {
+    plain(&session::builtin_tasks())
+}
+
+/// The verdict on a formula; `known` are the environment's propositions, for warnings.
+#[wasm_bindgen]
+pub fn check_formula(text: &str, known: Vec<String>) -> JsFormulaVerdict {
+    verdict(session::check_formula(text, &known))
+}
+
+/// The verdict on an automaton file.
+#[wasm_bindgen]
+pub fn check_hoa(text: &str) -> JsHoaVerdict {
+    verdict(session::check_hoa(text))
+}
+
+/// An open task under training.
+#[wasm_bindgen]
+pub struct Session(session::Session);
+
+#[wasm_bindgen]
+impl Session {
+    /// Opens a task; throws what is wrong with it.
+    pub fn open(request: JsRequest) -> Result<Session, JsValue> {
+        let request: OpenRequest = serde_wasm_bindgen::from_value(request.into())
+            .map_err(|e| refused(Refusal::new(Subject::Task, format!("the request is malformed: {e}"))))?;
+        session::Session::open(&request).map(Session).map_err(refused)
+    }
+
+    /// Opens a checkpoint; throws what is wrong with it.
+    pub fn restore(bytes: &[u8]) -> Result<Session, JsValue> {
+        session::Session::restore(bytes).map(Session).map_err(refused)
+    }
+
+    /// The checkpoint of this moment, from which training goes on exactly.
+    pub fn save(&mut self) -> Uint8Array {
+        Uint8Array::from(self.0.save(Replays::Keep).as_slice())
+    }
+
+    /// The same without replays: small, but training first fills them anew.
+    pub fn save_small(&mut self) -> Uint8Array {
+        Uint8Array::from(self.0.save(Replays::Leave).as_slice())
+    }
+
+    /// Everything that does not change from step to step.
+    pub fn describe(&self) -> JsDescription {
+        plain(&self.0.describe())
+    }
+
+    /// Trains for at most `steps` moves; how many were made.
+    pub fn advance(&mut self, steps: u32) -> u32 {
+        self.0.advance(steps)
+    }
+
+    /// Whether the recipe's budget is spent, or its goal reached.
+    #[wasm_bindgen(getter)]
+    pub fn finished(&self) -> bool {
+        self.0.finished()
+    }
+
+    /// Environment steps at the first periodic evaluation without a failure.
+    #[wasm_bindgen(getter)]
+    pub fn first_perfect_step(&self) -> Option<f64> {
+        self.0.first_perfect_step().map(|step| step as f64)
+    }
+
+    /// The numbers of this moment.
+    pub fn frame(&self) -> Float32Array {
+        Float32Array::from(self.0.frame().as_slice())
+    }
+
+    /// One greedy episode from start `index`.
+    pub fn rollout(&mut self, index: u64) -> JsEpisode {
+        let trace = self.0.rollout(index);
+        let object = Object::new();
+        set(&object, "rows", trace.rows as f64);
+        set(&object, "data", Float32Array::from(trace.data.as_slice()));
+        set(&object, "rounds", trace.rounds);
+        set(&object, "success", trace.success);
+        object.unchecked_into()
+    }
+
+    /// Begins an evaluation of `runs` episodes.
+    pub fn begin_evaluation(&mut self, runs: u32) -> Result<(), JsValue> {
+        self.0.begin_evaluation(runs).map_err(refused)
+    }
+
+    /// Makes at most `steps` moves of the evaluation; whether there is more to do.
+    pub fn advance_evaluation(&mut self, steps: u32) -> bool {
+        self.0.advance_evaluation(steps)
+    }
+
+    /// How the last evaluation stands.
+    pub fn evaluation(&self) -> JsProgress {
+        self.0.evaluation().map_or(JsValue::UNDEFINED.unchecked_into(), |progress| plain(&progress))
+    }
+
+    /// Begins an episode that the user drives, from start `index`; its first frame.
+    pub fn begin_drive(&mut self, index: u64) -> Float32Array {
+        Float32Array::from(self.0.begin_drive(index).as_slice())
+    }
+
+    /// One step under the user's control, or along the ε-jump to `jump`; the frame after it.
+    pub fn drive(&mut self, control: &[f32], jump: Option<u16>) -> Result<Float32Array, JsValue> {
+        self.0.drive(control, jump).map(|frame| Float32Array::from(frame.as_slice())).map_err(refused)
+    }
+
+    /// The learning curves so far.
+    pub fn curves(&self) -> JsCurves {
+        let curves = self.0.curves();
+        let object = Object::new();
+        set(&object, "every", curves.every);
+        for (name, column) in curves.columns() {
+            set(&object, name, Float32Array::from(column));
+        }
+        object.unchecked_into()
+    }
+
+    /// How each module has fared.
+    pub fn statistics(&self) -> JsStatistics {
+        plain(&self.0.statistics())
+    }
+}

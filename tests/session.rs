@@ -1,0 +1,186 @@
+//! The session as a shell uses it: opened, described, advanced, read, rolled out, evaluated, driven, saved and restored.
+
+use ltl_rover::agent::Replays;
+use ltl_rover::session::{Layout, OpenRequest, Session, Subject, builtin_tasks, check_formula, check_hoa};
+
+fn request(task: &str) -> OpenRequest {
+    OpenRequest { task: task.into(), seed: 7, ..OpenRequest::default() }
+}
+
+fn open(task: &str) -> Session {
+    Session::open(&request(task)).unwrap_or_else(|e| panic!("{task}: {e}"))
+}
+
+/// The numbers of field `name` in a frame.
+fn field<'a>(layout: &Layout, frame: &'a [f32], name: &str) -> &'a [f32] {
+    let field = layout.fields.iter().find(|f| f.name == name).unwrap_or_else(|| panic!("no field {name}"));
+    &frame[field.offset..field.offset + field.length]
+}
+
+#[test]
+fn every_built_in_task_opens_is_described_and_moves() {
+    for entry in builtin_tasks() {
+        for preset in &entry.presets {
+            let mut session = Session::open(&OpenRequest { preset: Some(preset.clone()), ..request(&entry.name) })
+                .unwrap_or_else(|e| panic!("{} {preset}: {e}", entry.name));
+            let description = session.describe();
+            assert_eq!((description.task.name.as_str(), &description.task.preset), (entry.name.as_str(), preset));
+            assert_eq!(description.environment.name, entry.environment);
+            assert!(!description.hoa.is_empty() && !description.settings.is_empty());
+            let layout = description.layout;
+            let mut next = 0;
+            for f in &layout.fields {
+                assert_eq!(f.offset, next, "{}: fields follow each other without gaps", f.name);
+                next += f.length;
+            }
+            assert_eq!(session.frame().len(), layout.length);
+            assert_eq!(session.advance(30), 30);
+            let frame = session.frame();
+            assert_eq!(field(&layout, &frame, "step"), [30.0, 0.0]);
+            assert!(frame.iter().all(|x| x.is_finite()), "{}: every number of a frame is finite", entry.name);
+            let edge = &description.automaton.edges[field(&layout, &frame, "edge")[0] as usize];
+            assert_eq!(
+                [f32::from(edge.from), f32::from(edge.to)],
+                [field(&layout, &frame, "q_before")[0], field(&layout, &frame, "q")[0]]
+            );
+            assert!(serde_json::to_value(session.describe()).is_ok());
+        }
+    }
+}
+
+#[test]
+fn reward_parts_add_up_and_a_round_is_seen_once() {
+    let mut session = open("ball_pass_b1");
+    let layout = session.describe().layout;
+    let one = |frame: &[f32], name: &str| field(&layout, frame, name)[0];
+    let (mut total, mut rounds) = (0.0, 0.0);
+    for _ in 0..900 {
+        session.advance(1);
+        let frame = session.frame();
+        let parts = ["accepting_reward", "sink_reward", "shaping_reached", "shaping_left"].map(|name| one(&frame, name));
+        assert!((parts.iter().sum::<f32>() - one(&frame, "reward")).abs() < 1e-6);
+        if one(&frame, "episode_step") == 1.0 {
+            (total, rounds) = (0.0, 0.0);
+        }
+        total += one(&frame, "accepting_reward");
+        rounds += one(&frame, "closes_round");
+        assert!((total - one(&frame, "return")).abs() < 1e-5);
+        assert!(rounds <= one(&frame, "rounds"));
+        assert_eq!(one(&frame, "end") > 0.0, one(&frame, "end") == 2.0 || one(&frame, "discount") == 0.0);
+    }
+}
+
+#[test]
+fn a_rollout_does_not_disturb_training() {
+    let (mut watched, mut alone) = (open("ball_pass_b1"), open("ball_pass_b1"));
+    for k in 0..6 {
+        watched.rollout(k);
+        watched.begin_drive(k);
+        watched.begin_evaluation(2).unwrap();
+        while watched.advance_evaluation(50) {}
+        watched.advance(100);
+        alone.advance(100);
+    }
+    assert_eq!(watched.frame(), alone.frame());
+}
+
+#[test]
+fn a_trace_is_an_episode_from_start_to_end() {
+    let mut session = open("cart_pole_c1");
+    let layout = session.describe().layout;
+    let trace = session.rollout(3);
+    assert_eq!(trace.data.len(), trace.rows * layout.length);
+    assert_eq!(session.rollout(3), trace, "the same index gives the same episode");
+    assert_ne!(session.rollout(4).data, trace.data);
+    for (row, frame) in trace.data.chunks(layout.length).enumerate() {
+        assert_eq!(field(&layout, frame, "source"), [1.0]);
+        assert_eq!(field(&layout, frame, "episode_step"), [row as f32]);
+        assert_eq!(field(&layout, frame, "end")[0] > 0.0, row + 1 == trace.rows);
+    }
+    let last = &trace.data[(trace.rows - 1) * layout.length..];
+    assert_eq!(field(&layout, last, "rounds"), [trace.rounds as f32]);
+}
+
+#[test]
+fn a_checkpoint_goes_on_bit_by_bit_with_its_curves() {
+    let mut session = open("ball_pass_b1");
+    session.advance(1_300);
+    let bytes = session.save(Replays::Keep);
+    let mut again = Session::restore(&bytes).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(again.curves(), session.curves());
+    assert_eq!(again.describe().seed, 7);
+    session.advance(200);
+    again.advance(200);
+    assert_eq!(again.frame(), session.frame());
+    assert_eq!(again.rollout(0), session.rollout(0));
+    let small = session.save(Replays::Leave);
+    assert!(small.len() < bytes.len());
+    assert_eq!(Session::restore(&small).unwrap().steps(), 1_500);
+}
+
+#[test]
+fn bytes_that_are_no_checkpoint_are_refused() {
+    let bytes = open("ball_pass_b1").save(Replays::Leave);
+    for wrong in [&b""[..], b"not a checkpoint at all", &bytes[..bytes.len() / 2], &bytes[..8]] {
+        assert_eq!(Session::restore(wrong).err().expect("this is no checkpoint").subject, Subject::Checkpoint);
+    }
+}
+
+#[test]
+fn an_evaluation_in_slices_counts_every_run_once() {
+    let mut session = open("ball_pass_b1");
+    assert!(session.begin_evaluation(0).is_err() && session.begin_evaluation(u32::MAX).is_err());
+    assert!(session.evaluation().is_none());
+    session.begin_evaluation(12).unwrap();
+    let mut last = 0;
+    while session.advance_evaluation(7) {
+        let now = session.evaluation().unwrap();
+        assert!(now.runs >= last && now.low <= now.high);
+        last = now.runs;
+    }
+    let done = session.evaluation().unwrap();
+    assert_eq!((done.wanted, done.runs, done.seed), (12, 12, 7));
+}
+
+#[test]
+fn a_driven_episode_obeys_the_controls_and_ends() {
+    let mut session = open("ball_pass_b1");
+    let layout = session.describe().layout;
+    assert!(session.drive(&[0.0, 0.0], None).is_err(), "no episode was begun");
+    let start = session.begin_drive(1);
+    assert_eq!(field(&layout, &start, "source"), [2.0]);
+    assert!(session.drive(&[0.0], None).is_err());
+    assert!(session.drive(&[0.0, 0.0], Some(1)).is_err(), "there are no ε-jumps here");
+    let mut frame = start;
+    for _ in 0..300 {
+        frame = session.drive(&[1.0, 1.0], None).unwrap();
+    }
+    assert_eq!(field(&layout, &frame, "action"), [1.0, 1.0]);
+    assert_eq!(field(&layout, &frame, "end"), [1.0], "the ball has left the arena");
+    assert_eq!(session.drive(&[0.0, 0.0], None).unwrap(), frame, "what is over stays as it is");
+}
+
+#[test]
+fn refusals_name_the_text_and_the_place() {
+    let refused = |request: OpenRequest| Session::open(&request).err().expect("this is refused");
+    let unknown = refused(request("ball_pass_b9"));
+    assert!(unknown.subject == Subject::Task && unknown.message.contains("ball_pass_b1"));
+    let formula = refused(OpenRequest { formula: Some("G F (r1 &".into()), ..request("ball_pass_b1") });
+    assert_eq!((formula.subject, formula.place.start), (Subject::Formula, 9));
+    let hoa = refused(OpenRequest { hoa: Some("HOA: v1\nStates: x".into()), ..request("ball_pass_b1") });
+    assert_eq!((hoa.subject, hoa.place.line), (Subject::Hoa, 2));
+    assert_eq!(refused(OpenRequest { preset: Some("fats".into()), ..request("ball_pass_b1") }).hint, "did you mean `fast`?");
+    let wrong = OpenRequest { overrides: [("learner.n_stp".to_owned(), "3".to_owned())].into(), ..request("ball_pass_b1") };
+    assert_eq!(refused(wrong).subject, Subject::Task);
+    assert_eq!(check_hoa("HOA: v2").unwrap_err().subject, Subject::Hoa);
+    assert!(check_formula("G F r1", &[]).is_ok());
+}
+
+#[test]
+fn an_override_is_in_force() {
+    let changed = OpenRequest { overrides: [("learner.n_step".to_owned(), "3".to_owned())].into(), ..request("ball_pass_b1") };
+    let description = Session::open(&changed).unwrap().describe();
+    let setting = description.settings.iter().find(|s| s.key == "learner.n_step").unwrap();
+    assert_eq!(setting.value, "3");
+    assert!(description.settings.iter().any(|s| s.key == "learner.tau" && s.value == "0.005"), "an f32 is shown as it was meant");
+}
