@@ -1,13 +1,12 @@
 //! From a map file, a picture, or both, to a checked [`RoverMap`].
 
 use super::error::{MapError, MapProblem};
+use super::format::{GridEntry, ImageEntry, LabelEntry, MapFile, Others, RegionEntry};
 use super::grid::{LabelGrid, Run};
-use super::picture::{Legend, Picture};
+use super::picture::{Legend, MAX_SIDE, Picture};
 use super::raster::Canvas;
 use crate::env::scene::{Region, Shape};
 use crate::labels::{Labels, Propositions};
-use serde::Deserialize;
-use std::collections::BTreeMap;
 
 /// The longest map file, in bytes.
 pub const MAX_TEXT: usize = 4 << 20;
@@ -43,60 +42,8 @@ pub struct RoverMap {
     pub regions: Vec<Region>,
     /// The letters.
     pub grid: LabelGrid,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MapFile {
-    name: String,
-    #[serde(default, rename = "about")]
-    _about: String,
-    unit: String,
-    width: f32,
-    height: f32,
-    reach: f32,
-    labels: Vec<LabelEntry>,
-    hazard: Option<String>,
-    #[serde(default)]
-    regions: Vec<RegionEntry>,
-    cell: Option<f32>,
-    picture: Option<String>,
-    image: Option<ImageEntry>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LabelEntry {
-    name: String,
-    meaning: Option<String>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RegionEntry {
-    label: String,
-    #[serde(default)]
-    name: String,
-    disc: Option<[f32; 3]>,
-    polygon: Option<Vec<[f32; 2]>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ImageEntry {
-    colours: BTreeMap<String, Option<String>>,
-    #[serde(default)]
-    tolerance: u8,
-    #[serde(default)]
-    others: Others,
-}
-
-#[derive(Deserialize, Default, Clone, Copy, PartialEq)]
-#[serde(rename_all = "snake_case")]
-enum Others {
-    #[default]
-    Refuse,
-    Free,
+    /// What it was made of.
+    file: MapFile,
 }
 
 impl RoverMap {
@@ -115,13 +62,7 @@ impl RoverMap {
     /// # Errors
     /// [`MapError`] names the place and what is allowed there.
     pub fn from_json(text: &str, image: Option<&[u8]>) -> Result<RoverMap, MapError> {
-        limit("map file", "bytes", text.len(), MAX_TEXT)?;
-        let file: MapFile = serde_json::from_str(text).map_err(|error| {
-            let place = format!("line {}, column {}", error.line(), error.column());
-            let sentence = error.to_string();
-            let problem = sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(problem, _)| problem);
-            MapError::new(place, MapProblem::Syntax(problem.to_owned()))
-        })?;
+        let file = parse(text)?;
         let picture = match (&file.image, image) {
             (Some(_), Some(bytes)) => Some(Picture::from_png(bytes)?),
             (None, None) => None,
@@ -133,7 +74,7 @@ impl RoverMap {
                 return Err(MapError::new("image", MapProblem::Image(problem)));
             }
         };
-        build(file, picture)
+        build(file, picture.as_ref())
     }
 
     /// A map from a flat PNG alone: one pixel is one unit (`px`), a step reaches 1.5 % of the longer side. Transparent, black, grey
@@ -151,22 +92,67 @@ impl RoverMap {
     /// # Errors
     /// As [`RoverMap::from_png`].
     pub fn from_picture(name: &str, picture: &Picture) -> Result<RoverMap, MapError> {
-        limit("picture", "pixels on a side", picture.width.max(picture.height), super::picture::MAX_SIDE)?;
+        limit("picture", "pixels on a side", picture.width.max(picture.height), MAX_SIDE)?;
         if picture.width == 0 || picture.height == 0 || picture.pixels.len() != picture.width * picture.height {
             return Err(MapError::new("picture", MapProblem::Image("it has no pixels, or not as many as its size says")));
         }
-        let size = [picture.width as f32, picture.height as f32];
-        let (propositions, legend) = picture.guess_legend()?;
-        let hazard = propositions.index("unsafe");
-        let meanings = propositions.iter().map(|label| format!("the rover is on a pixel of the colour {label}")).collect();
-        let mut canvas = Canvas::new(size, [picture.width, picture.height]);
-        picture.paint(&mut canvas, &legend)?;
-        let reach = 0.015 * size[0].max(size[1]);
-        let (name, unit) = (name.to_owned(), "px".to_owned());
-        let grid = grid(size, [picture.width, picture.height], canvas, hazard)?;
-        let regions = cell_regions(&grid, &propositions);
-        Ok(RoverMap { name, unit, size, reach, propositions, meanings, hazard, picture: None, regions, grid })
+        let (width, height) = (picture.width as f32, picture.height as f32);
+        let (names, colours) = picture.guess_labels()?;
+        let meaning = |name: &String| format!("the rover is on a pixel of the colour {name}");
+        let labels = names.iter().map(|name| LabelEntry { name: name.clone(), meaning: Some(meaning(name)) }).collect();
+        let colours = colours.into_iter().map(|([r, g, b], label)| (format!("#{r:02x}{g:02x}{b:02x}"), label)).collect();
+        let file = MapFile {
+            name: name.to_owned(),
+            about: String::new(),
+            unit: "px".to_owned(),
+            width,
+            height,
+            reach: 0.015 * width.max(height),
+            labels,
+            hazard: None,
+            regions: vec![],
+            cell: None,
+            picture: None,
+            image: Some(ImageEntry { file: None, colours, tolerance: 0, others: Others::Refuse }),
+            grid: None,
+        };
+        build(file, Some(picture))
     }
+
+    /// The name of the picture whose colours are the labels, if the map file `text` names one (`image.file`): for whoever may read
+    /// files, to hand its bytes to [`RoverMap::from_json`].
+    ///
+    /// # Errors
+    /// A text that is no map file.
+    pub fn image_file(text: &str) -> Result<Option<String>, MapError> {
+        Ok(parse(text)?.image.and_then(|image| image.file))
+    }
+
+    /// The map as one map file that needs no picture to be read again: labels taken from a picture are written out as `grid`.
+    pub fn to_json(&self) -> String {
+        let mut file = self.file.clone();
+        if file.image.take().is_some() {
+            // The regions are in the grid as well.
+            file.regions.clear();
+            let letters = self.grid.letters().map(|letter| {
+                let names = self.propositions.iter().enumerate().filter(|(i, _)| letter.holds(*i));
+                names.map(|(_, name)| name.to_owned()).collect()
+            });
+            let [columns, rows] = self.grid.size();
+            file.grid = Some(GridEntry { columns, rows, letters: letters.collect(), runs: self.grid.letter_runs() });
+        }
+        serde_json::to_string(&file).expect("a map file has a form in JSON")
+    }
+}
+
+fn parse(text: &str) -> Result<MapFile, MapError> {
+    limit("map file", "bytes", text.len(), MAX_TEXT)?;
+    serde_json::from_str(text).map_err(|error| {
+        let place = format!("line {}, column {}", error.line(), error.column());
+        let sentence = error.to_string();
+        let problem = sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(problem, _)| problem);
+        MapError::new(place, MapProblem::Syntax(problem.to_owned()))
+    })
 }
 
 fn limit(place: &str, what: &'static str, found: usize, limit: usize) -> Result<(), MapError> {
@@ -179,7 +165,7 @@ fn positive(place: &str, value: f32) -> Result<(), MapError> {
     if ok { Ok(()) } else { Err(MapError::new(place, problem)) }
 }
 
-fn build(file: MapFile, image: Option<Picture>) -> Result<RoverMap, MapError> {
+fn build(file: MapFile, image: Option<&Picture>) -> Result<RoverMap, MapError> {
     let size = [file.width, file.height];
     for (place, value) in [("width", file.width), ("height", file.height), ("reach", file.reach)] {
         positive(place, value)?;
@@ -190,25 +176,68 @@ fn build(file: MapFile, image: Option<Picture>) -> Result<RoverMap, MapError> {
         Some(label) => Some(find(&propositions, label, "hazard")?),
         None => propositions.index("unsafe"),
     };
-    let regions = regions(file.regions, &propositions)?;
-    let cells = match &image {
-        Some(picture) => [picture.width, picture.height],
-        None => cells(size, file.cell)?,
-    };
-    let mut canvas = Canvas::new(size, cells);
-    if let (Some(entry), Some(picture)) = (&file.image, &image) {
-        picture.paint(&mut canvas, &legend(entry, &propositions)?)?;
-    }
+    let mut regions = regions(&file.regions, &propositions)?;
+    let mut canvas = canvas(&file, size, image, &propositions)?;
     for (i, region) in regions.iter().enumerate() {
         let painted = canvas.paint(&region.shape, region.proposition);
         painted.map_err(|problem| MapError::new(format!("regions[{i}]"), problem))?;
     }
-    let grid = grid(size, cells, canvas, hazard)?;
-    let regions = if image.is_some() { cell_regions(&grid, &propositions) } else { regions };
+    if let Some(hazard) = hazard {
+        canvas.let_win(hazard);
+    }
+    let grid = LabelGrid::new(size, canvas.cells(), canvas.palette, canvas.indices, hazard)
+        .ok_or_else(|| MapError::new("map", MapProblem::NoFreeGround))?;
+    if file.image.is_some() || file.grid.is_some() {
+        regions = cell_regions(&grid, &propositions);
+    }
     let meaning = |entry: &LabelEntry| entry.meaning.clone().unwrap_or_else(|| format!("the rover is in `{}`", entry.name));
     let meanings = file.labels.iter().map(meaning).collect();
-    let MapFile { name, unit, reach, picture, .. } = file;
-    Ok(RoverMap { name, unit, size, reach, propositions, meanings, hazard, picture, regions, grid })
+    let MapFile { name, unit, reach, picture, .. } = file.clone();
+    Ok(RoverMap { name, unit, size, reach, propositions, meanings, hazard, picture, regions, grid, file })
+}
+
+/// The cells before any region is painted: free ground, or the labels of a picture or of cells written out.
+fn canvas(file: &MapFile, size: [f32; 2], image: Option<&Picture>, propositions: &Propositions) -> Result<Canvas, MapError> {
+    match (&file.image, &file.grid, image) {
+        (Some(_), Some(_), _) => Err(MapError::new("grid", MapProblem::Image("a map has an `image` or a `grid`, not both"))),
+        (Some(entry), None, Some(picture)) => {
+            let mut canvas = Canvas::new(size, [picture.width, picture.height]);
+            picture.paint(&mut canvas, &legend(entry, propositions)?)?;
+            Ok(canvas)
+        }
+        (_, Some(grid), _) => written_out(grid, size, propositions),
+        _ => Ok(Canvas::new(size, cells(size, file.cell)?)),
+    }
+}
+
+fn written_out(grid: &GridEntry, size: [f32; 2], propositions: &Propositions) -> Result<Canvas, MapError> {
+    let total = grid.columns.saturating_mul(grid.rows);
+    limit("grid", "grid cells", total, LabelGrid::MAX_CELLS)?;
+    positive("grid.columns", grid.columns as f32)?;
+    positive("grid.rows", grid.rows as f32)?;
+    let mut canvas = Canvas::new(size, [grid.columns, grid.rows]);
+    let mut colours = vec![];
+    for (i, names) in grid.letters.iter().enumerate() {
+        let mut letter = Labels::EMPTY;
+        for name in names {
+            letter = letter.with(find(propositions, name, &format!("grid.letters[{i}]"))?, true);
+        }
+        colours.push(canvas.colour(letter).map_err(|problem| MapError::new("grid.letters", problem))?);
+    }
+    let mut at = 0_usize;
+    for (i, &[letter, length]) in grid.runs.iter().enumerate() {
+        let end = at.saturating_add(length as usize);
+        let (Some(&colour), true) = (colours.get(letter as usize), end <= total) else {
+            let problem = MapProblem::Image("there is no such letter, or the runs have more cells than the grid");
+            return Err(MapError::new(format!("grid.runs[{i}]"), problem));
+        };
+        canvas.indices[at..end].fill(colour);
+        at = end;
+    }
+    if at < total {
+        return Err(MapError::new("grid.runs", MapProblem::Image("the runs have fewer cells than the grid")));
+    }
+    Ok(canvas)
 }
 
 fn find(propositions: &Propositions, label: &str, place: &str) -> Result<usize, MapError> {
@@ -235,11 +264,11 @@ fn cells(size: [f32; 2], cell: Option<f32>) -> Result<[usize; 2], MapError> {
     Ok(count.map(|n| n as usize))
 }
 
-fn regions(entries: Vec<RegionEntry>, propositions: &Propositions) -> Result<Vec<Region>, MapError> {
+fn regions(entries: &[RegionEntry], propositions: &Propositions) -> Result<Vec<Region>, MapError> {
     limit("regions", "regions", entries.len(), MAX_REGIONS)?;
     let points = entries.iter().filter_map(|entry| entry.polygon.as_ref()).map(Vec::len).sum();
     limit("regions", "corners", points, MAX_POINTS)?;
-    let region = |(i, entry): (usize, RegionEntry)| {
+    let region = |(i, entry): (usize, &RegionEntry)| {
         let place = format!("regions[{i}]");
         let proposition = find(propositions, &entry.label, &format!("{place}.label"))?;
         let coordinates = |values: &[f32], key: &str| match values.iter().find(|v| v.is_nan() || v.abs() > 1e9) {
@@ -249,7 +278,7 @@ fn regions(entries: Vec<RegionEntry>, propositions: &Propositions) -> Result<Vec
                 Err(MapError::new(format!("{place}.{key}"), problem))
             }
         };
-        let shape = match (entry.disc, entry.polygon) {
+        let shape = match (entry.disc, &entry.polygon) {
             (Some([x, y, radius]), None) => {
                 coordinates(&[x, y], "disc")?;
                 positive(&format!("{place}.disc[2]"), radius)?;
@@ -260,13 +289,13 @@ fn regions(entries: Vec<RegionEntry>, propositions: &Propositions) -> Result<Vec
                 if points.len() < 3 {
                     return Err(MapError::new(format!("{place}.polygon"), MapProblem::Corners(points.len())));
                 }
-                Shape::Polygon { points }
+                Shape::Polygon { points: points.clone() }
             }
             _ => return Err(MapError::new(place, MapProblem::Shape)),
         };
-        Ok(Region { proposition, name: entry.name, shape, margin: 0.0 })
+        Ok(Region { proposition, name: entry.name.clone(), shape, margin: 0.0 })
     };
-    entries.into_iter().enumerate().map(region).collect()
+    entries.iter().enumerate().map(region).collect()
 }
 
 fn legend(entry: &ImageEntry, propositions: &Propositions) -> Result<Legend, MapError> {
@@ -281,14 +310,6 @@ fn legend(entry: &ImageEntry, propositions: &Propositions) -> Result<Legend, Map
         colours.push(([r, g, b], label));
     }
     Ok(Legend { colours, tolerance: entry.tolerance, others_free: entry.others == Others::Free })
-}
-
-fn grid(size: [f32; 2], cells: [usize; 2], mut canvas: Canvas, hazard: Option<usize>) -> Result<LabelGrid, MapError> {
-    if let Some(hazard) = hazard {
-        canvas.let_win(hazard);
-    }
-    let grid = LabelGrid::new(size, cells, canvas.palette, canvas.cells, hazard);
-    grid.ok_or_else(|| MapError::new("map", MapProblem::NoFreeGround))
 }
 
 /// The cells of each label as one region, for maps that come from pictures.

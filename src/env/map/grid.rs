@@ -104,6 +104,18 @@ impl LabelGrid {
         self.starts.total as usize
     }
 
+    /// All cells row by row, as runs of (index into [`LabelGrid::letters`], cells).
+    pub(super) fn letter_runs(&self) -> Vec<[u32; 2]> {
+        let mut runs: Vec<[u32; 2]> = vec![];
+        for &cell in &self.cells {
+            match runs.last_mut() {
+                Some([letter, length]) if *letter == u32::from(cell) => *length += 1,
+                _ => runs.push([u32::from(cell), 1]),
+            }
+        }
+        runs
+    }
+
     /// The runs of cells in which the label `index` holds.
     pub(super) fn runs_of(&self, index: usize) -> Vec<Run> {
         self.runs(|grid, i| grid.palette[grid.cells[i] as usize].holds(index))

@@ -17,7 +17,7 @@
 //! | key | meaning | default |
 //! |---|---|---|
 //! | `name` | what the map is called | – |
-//! | `about` | a remark; ignored | none |
+//! | `about` | a remark | none |
 //! | `unit` | unit of length of all numbers | – |
 //! | `width`, `height` | size of the map; the origin is the top-left corner, x grows to the right, y downwards | – |
 //! | `reach` | D, the longest way of one step | – |
@@ -26,7 +26,8 @@
 //! | `regions` | shapes: `disc` (x, y, radius) or `polygon` (corners, even-odd) | none |
 //! | `cell` | side of a grid cell | a thousandth of the longer side |
 //! | `picture` | the file of a picture that fills the map, for views | none |
-//! | `image` | labels from the flat colours of a PNG: `colours`, `tolerance`, `others` | none |
+//! | `image` | labels from the flat colours of a PNG: `file`, `colours`, `tolerance`, `others` | none |
+//! | `grid` | labels by cell, as [`RoverMap::to_json`] writes them: `columns`, `rows`, `letters`, `runs` | none |
 //!
 //! In `image`, `colours` maps `"#rrggbb"` to a label or to `null` for free ground; a pixel takes the nearest colour whose channels
 //! all differ by at most `tolerance` (0 … 255, default 0); other colours are an error (`"others": "refuse"`) or free ground
@@ -34,6 +35,7 @@
 
 mod error;
 mod file;
+mod format;
 mod grid;
 mod picture;
 mod raster;

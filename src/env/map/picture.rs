@@ -2,7 +2,7 @@
 
 use super::error::{MapError, MapProblem};
 use super::raster::Canvas;
-use crate::labels::{Labels, Propositions};
+use crate::labels::Labels;
 use std::io::Cursor;
 
 /// The largest width or height of a picture, in pixels.
@@ -29,6 +29,9 @@ pub(super) struct Legend {
     /// Whether colours outside the legend are free ground rather than an error.
     pub others_free: bool,
 }
+
+/// The labels, and the label of each colour; `None` is free ground.
+pub(super) type Guess = (Vec<String>, Vec<([u8; 3], Option<String>)>);
 
 impl Picture {
     /// Reads a PNG file of any colour type.
@@ -86,7 +89,7 @@ impl Picture {
                     index
                 }
             };
-            canvas.cells[i] = index;
+            canvas.indices[i] = index;
         }
         let Some((i, [r, g, b, _])) = unknown else { return Ok(()) };
         let place = format!("pixel ({}, {})", i % self.width, i / self.width);
@@ -94,9 +97,10 @@ impl Picture {
         Err(MapError::new(place, MapProblem::UnknownColour { colour, pixels: missing, total: self.pixels.len() }))
     }
 
-    /// A legend for a flat picture: transparent, black, grey and white are free ground, red is `unsafe`, every other colour is a
-    /// label with its name (`green`, `blue`, …; a second shade of the same name gets a number).
-    pub(super) fn guess_legend(&self) -> Result<(Propositions, Legend), MapError> {
+    /// Labels for the colours of a flat picture, in the order in which they appear: black, grey and white are free ground, red is
+    /// `unsafe`, every other colour is a label with its name (`green`, `blue`, …; a second shade of the same name gets a number).
+    /// Transparent pixels do not count.
+    pub(super) fn guess_labels(&self) -> Result<Guess, MapError> {
         let mut colours: Vec<[u8; 3]> = vec![];
         for &[r, g, b, opacity] in &self.pixels {
             if opacity >= 128 && !colours.contains(&[r, g, b]) {
@@ -109,21 +113,21 @@ impl Picture {
         let mut names: Vec<String> = vec![];
         let mut entries = vec![];
         for colour in colours {
-            let (low, high) = (colour.iter().min(), colour.iter().max());
-            let grey = high.zip(low).is_some_and(|(high, low)| high - low < 24);
-            let label = (!grey).then(|| {
+            let [low, high] = [colour.iter().min(), colour.iter().max()].map(|c| *c.expect("three channels"));
+            let mut label = None;
+            if high - low >= 24 {
                 let name = colour_name(colour);
-                if name == "unsafe" && names.iter().any(|n| n == name) {
-                    return names.iter().position(|n| n == name).expect("it was just found");
-                }
                 let same = names.iter().filter(|n| n.trim_end_matches(|c: char| c.is_ascii_digit()) == name).count();
-                names.push(if same == 0 { name.to_owned() } else { format!("{name}{}", same + 1) });
-                names.len() - 1
-            });
+                // All reds are one label; of the other colours, each shade is its own.
+                let numbered = if same == 0 || name == "unsafe" { name.to_owned() } else { format!("{name}{}", same + 1) };
+                if !names.contains(&numbered) {
+                    names.push(numbered.clone());
+                }
+                label = Some(numbered);
+            }
             entries.push((colour, label));
         }
-        let propositions = Propositions::new(names).map_err(|error| MapError::new("picture", error.into()))?;
-        Ok((propositions, Legend { colours: entries, tolerance: 0, others_free: false }))
+        Ok((names, entries))
     }
 }
 

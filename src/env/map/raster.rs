@@ -10,14 +10,20 @@ pub(super) struct Canvas {
     columns: usize,
     rows: usize,
     pub palette: Vec<Labels>,
-    pub cells: Vec<u8>,
+    /// Indices into the palette, row by row.
+    pub indices: Vec<u8>,
 }
 
 impl Canvas {
     /// Free ground: `cells` columns and rows over `size` units of length.
     pub fn new(size: [f32; 2], cells: [usize; 2]) -> Canvas {
         let [columns, rows] = cells;
-        Canvas { size: size.map(f64::from), columns, rows, palette: vec![Labels::EMPTY], cells: vec![0; columns * rows] }
+        Canvas { size: size.map(f64::from), columns, rows, palette: vec![Labels::EMPTY], indices: vec![0; columns * rows] }
+    }
+
+    /// Columns and rows.
+    pub fn cells(&self) -> [usize; 2] {
+        [self.columns, self.rows]
     }
 
     /// Adds the label `index` to all cells of `shape`.
@@ -34,7 +40,7 @@ impl Canvas {
         }
         // Letters that have become equal, or that are hidden everywhere, leave the palette.
         let mut used = [false; 256];
-        self.cells.iter().for_each(|&cell| used[cell as usize] = true);
+        self.indices.iter().for_each(|&cell| used[cell as usize] = true);
         let (mut palette, mut renumbered) = (vec![], [0_u8; 256]);
         for (old, &letter) in self.palette.iter().enumerate().filter(|(old, _)| used[*old]) {
             let new = palette.iter().position(|&l| l == letter).unwrap_or_else(|| {
@@ -43,7 +49,7 @@ impl Canvas {
             });
             renumbered[old] = new as u8;
         }
-        self.cells.iter_mut().for_each(|cell| *cell = renumbered[*cell as usize]);
+        self.indices.iter_mut().for_each(|cell| *cell = renumbered[*cell as usize]);
         self.palette = palette;
     }
 
@@ -62,12 +68,12 @@ impl Canvas {
             for (from, to) in self.spans(shape, (row as f64 + 0.5) * self.size[1] / self.rows as f64) {
                 for column in self.columns_between(from, to) {
                     let i = row * self.columns + column;
-                    let old = self.cells[i] as usize;
-                    self.cells[i] = match changed[old] {
+                    let old = self.indices[i] as usize;
+                    self.indices[i] = match changed[old] {
                         Some(new) => new,
                         None => self.colour(change(self.palette[old]))?,
                     };
-                    changed[old] = Some(self.cells[i]);
+                    changed[old] = Some(self.indices[i]);
                 }
             }
         }
@@ -118,7 +124,7 @@ mod tests {
     fn cells(shape: &Shape) -> Vec<Vec<bool>> {
         let mut canvas = Canvas::new([20.0, 10.0], [40, 20]);
         canvas.paint(shape, 3).unwrap();
-        canvas.cells.chunks(40).map(|row| row.iter().map(|&c| canvas.palette[c as usize].holds(3)).collect()).collect()
+        canvas.indices.chunks(40).map(|row| row.iter().map(|&c| canvas.palette[c as usize].holds(3)).collect()).collect()
     }
 
     #[test]
@@ -152,7 +158,7 @@ mod tests {
         canvas.paint(&strip(1.0, 3.0), 1).unwrap();
         canvas.paint(&strip(2.0, 4.0), 2).unwrap();
         canvas.let_win(2);
-        let found: Vec<u64> = canvas.cells.iter().map(|&c| canvas.palette[c as usize].0).collect();
+        let found: Vec<u64> = canvas.indices.iter().map(|&c| canvas.palette[c as usize].0).collect();
         assert_eq!(found, [0b001, 0b011, 0b100, 0b100]);
         assert_eq!(canvas.palette.len(), 3, "letters that occur nowhere are forgotten");
     }
