@@ -2,6 +2,7 @@
 //! ones, and words along the edges of the automaton.
 
 use super::ldgba::{Ldgba, StateId};
+use super::state_based::Letters;
 use crate::labels::{Labels, Propositions, PropositionsError};
 use crate::ltl::{Evaluator, Formula, Lasso};
 use crate::rng::{Purpose, Rng};
@@ -17,12 +18,14 @@ pub struct WordBudget {
     pub random: usize,
     /// The seed of the random words.
     pub seed: u64,
+    /// Which letters the words consist of; [`Letters::Exclusive`] where the propositions are regions that do not overlap.
+    pub letters: Letters,
 }
 
 impl Default for WordBudget {
     /// 20 000 short words and 4 000 random ones.
     fn default() -> WordBudget {
-        WordBudget { exhaustive: 20_000, random: 4_000, seed: 0 }
+        WordBudget { exhaustive: 20_000, random: 4_000, seed: 0, letters: Letters::All }
     }
 }
 
@@ -97,14 +100,13 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
         Mismatch::Word(Box::new(CounterExample { word, propositions: propositions.clone(), accepted }))
     };
 
+    let alphabet = Alphabet { propositions: propositions.len(), letters: budget.letters };
     let (mut words, mut length) = (0, 0);
-    while let Some(more) =
-        count(length + 1, propositions.len()).filter(|more| words + more <= budget.exhaustive && length < MAX_LENGTH)
-    {
+    while let Some(more) = alphabet.count(length + 1).filter(|more| words + more <= budget.exhaustive && length < MAX_LENGTH) {
         length += 1;
         words += more;
         for prefix in 0..length {
-            if let Some(word) = lassos(prefix, length - prefix, propositions.len()).find(|word| differs(word)) {
+            if let Some(word) = alphabet.lassos(prefix, length - prefix).find(|word| differs(word)) {
                 return Err(found(word));
             }
         }
@@ -112,7 +114,7 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
     let walker = Walker::new(automaton);
     let mut rng = Rng::new(budget.seed, Purpose::Tool);
     for i in 0..budget.random {
-        let word = if i % 2 == 0 { random_word(propositions.len(), &mut rng) } else { walker.word(&mut rng) };
+        let word = if i % 2 == 0 { alphabet.random_word(&mut rng) } else { walker.word(&alphabet, &mut rng) };
         if differs(&word) {
             return Err(found(word));
         }
@@ -121,31 +123,63 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
     Ok(Matched { words, length })
 }
 
-/// The number of lassos with |u| + |v| = `length` over `propositions` propositions, if it fits 32 bits.
-fn count(length: usize, propositions: usize) -> Option<usize> {
-    let letters = 1u32.checked_shl(u32::try_from(propositions).ok()?)?;
-    letters.checked_pow(u32::try_from(length).ok()?)?.checked_mul(u32::try_from(length).ok()?).map(|n| n as usize)
+/// The letters of words.
+struct Alphabet {
+    propositions: usize,
+    letters: Letters,
 }
 
-/// All lassos with |u| = `prefix` and |v| = `cycle`.
-fn lassos(prefix: usize, cycle: usize, propositions: usize) -> impl Iterator<Item = Lasso> {
-    let letters = 1u64 << propositions;
-    (0..letters.pow((prefix + cycle) as u32)).map(move |number| {
-        let word: Vec<Labels> = (0..prefix + cycle).map(|i| Labels(number / letters.pow(i as u32) % letters)).collect();
-        Lasso { prefix: word[..prefix].to_vec(), cycle: word[prefix..].to_vec() }
-    })
-}
+impl Alphabet {
+    /// How many letters there are, if that fits 32 bits.
+    fn size(&self) -> Option<u32> {
+        let propositions = u32::try_from(self.propositions).ok()?;
+        match self.letters {
+            Letters::All => 1u32.checked_shl(propositions),
+            Letters::Exclusive => Some(propositions + 1),
+        }
+    }
 
-/// Up to 8 + 8 letters; how likely propositions hold is drawn first, so that rare and frequent letters both occur.
-fn random_word(propositions: usize, rng: &mut Rng) -> Lasso {
-    let density = [0.1, 0.3, 0.5, 0.9][rng.below(4)];
-    let mut letters = |count: usize| -> Vec<Labels> {
-        let letter = |rng: &mut Rng| (0..propositions).fold(Labels::EMPTY, |sigma, i| sigma.with(i, rng.chance(density)));
-        (0..count).map(|_| letter(rng)).collect()
-    };
-    let all = letters(16);
-    let (prefix, cycle) = (rng.below(9), 1 + rng.below(8));
-    Lasso { prefix: all[..prefix].to_vec(), cycle: all[8..8 + cycle].to_vec() }
+    fn letter(&self, number: u64) -> Labels {
+        match (self.letters, number) {
+            (Letters::All, _) => Labels(number),
+            (Letters::Exclusive, 0) => Labels::EMPTY,
+            (Letters::Exclusive, _) => Labels::only(number as usize - 1),
+        }
+    }
+
+    /// `sigma`, or, if it cannot occur, a letter with one of its propositions.
+    fn fitted(&self, sigma: Labels, rng: &mut Rng) -> Labels {
+        let held: Vec<usize> = (0..self.propositions).filter(|i| sigma.holds(*i)).collect();
+        if self.letters == Letters::All || held.len() < 2 { sigma } else { Labels::only(held[rng.below(held.len())]) }
+    }
+
+    /// The number of lassos with |u| + |v| = `length`, if it fits 32 bits.
+    fn count(&self, length: usize) -> Option<usize> {
+        let length = u32::try_from(length).ok()?;
+        self.size()?.checked_pow(length)?.checked_mul(length).map(|n| n as usize)
+    }
+
+    /// All lassos with |u| = `prefix` and |v| = `cycle`, whose number fits 32 bits.
+    fn lassos(&self, prefix: usize, cycle: usize) -> impl Iterator<Item = Lasso> {
+        let size = u64::from(self.size().expect("only alphabets whose lassos can be counted are enumerated"));
+        (0..size.pow((prefix + cycle) as u32)).map(move |number| {
+            let word: Vec<Labels> = (0..prefix + cycle).map(|i| self.letter(number / size.pow(i as u32) % size)).collect();
+            Lasso { prefix: word[..prefix].to_vec(), cycle: word[prefix..].to_vec() }
+        })
+    }
+
+    /// Up to 8 + 8 letters; how likely propositions hold is drawn first, so that rare and frequent letters both occur.
+    fn random_word(&self, rng: &mut Rng) -> Lasso {
+        let density = [0.1, 0.3, 0.5, 0.9][rng.below(4)];
+        let letters: Vec<Labels> = (0..16)
+            .map(|_| {
+                let sigma = (0..self.propositions).fold(Labels::EMPTY, |sigma, i| sigma.with(i, rng.chance(density)));
+                self.fitted(sigma, rng)
+            })
+            .collect();
+        let (prefix, cycle) = (rng.below(9), 1 + rng.below(8));
+        Lasso { prefix: letters[..prefix].to_vec(), cycle: letters[8..8 + cycle].to_vec() }
+    }
 }
 
 /// Words along the edges of an automaton.
@@ -186,9 +220,10 @@ impl Walker<'_> {
 
     /// The shortest way to a random state, a random edge of it, and then along edges that lead to no sink where that can be helped;
     /// the cycle starts where the last state was met before, if it was.
-    fn word(&self, rng: &mut Rng) -> Lasso {
+    fn word(&self, alphabet: &Alphabet, rng: &mut Rng) -> Lasso {
         let position = rng.below(self.access.len());
-        let (mut q, mut word) = (self.access[position].0, self.way(position));
+        let (mut q, way) = (self.access[position].0, self.way(position));
+        let mut word: Vec<Labels> = way.into_iter().map(|sigma| alphabet.fitted(sigma, rng)).collect();
         let mut visited = vec![(q, word.len())];
         let limit = 1 + rng.below(2 + 2 * self.automaton.len().min(30));
         for step in 0..limit {
@@ -205,8 +240,9 @@ impl Walker<'_> {
             let cube = guard.0[rng.below(guard.0.len())];
             let free = !cube.support() & rng.bits() & rng.bits();
             let mask = 1u64.checked_shl(self.automaton.propositions().len() as u32).map_or(u64::MAX, |bit| bit - 1);
-            word.push(Labels((cube.positive | free) & mask));
-            q = edge.target;
+            let sigma = alphabet.fitted(Labels((cube.positive | free) & mask), rng);
+            word.push(sigma);
+            q = if guard.contains(sigma) { edge.target } else { self.automaton.edge(q, sigma).target };
             visited.push((q, word.len()));
         }
         let starts: Vec<usize> = visited.iter().filter(|(p, at)| *p == q && *at < word.len()).map(|(_, at)| *at).collect();

@@ -1,5 +1,6 @@
 //! The commands, and the way from the program's arguments to its exit code.
 
+use super::check;
 use super::eval;
 use super::failure::Failure;
 use super::plot;
@@ -20,6 +21,8 @@ pub struct Cli {
 /// The commands. Each variant holds the arguments of the module of its name.
 #[derive(Subcommand, Debug)]
 pub enum Command {
+    /// Check automata in the HOA format, a formula, or both against one another.
+    Check(check::Check),
     /// Learn a task: train until it is solved or the budget is spent.
     Train(train::Train),
     /// Judge a trained policy: success rate with its interval, rounds, sinks.
@@ -40,6 +43,7 @@ pub fn main() -> ExitCode {
         }
     };
     let done: Result<ExitCode, Failure> = match &cli.command {
+        Command::Check(check) => check.run(),
         Command::Train(train) => train.run(),
         Command::Eval(eval) => eval.run(),
         Command::Plot(plot) => plot.run(),

@@ -155,6 +155,13 @@ impl Place {
         Place { span: Span { start, end }, line, column: before + 1, excerpt, margin, carets }
     }
 
+    /// The part of the line that is shown, and where in it the place is, in bytes.
+    pub fn excerpt(&self) -> (&str, std::ops::Range<usize>) {
+        let start = self.excerpt.char_indices().nth(self.margin.chars().count()).map_or(self.excerpt.len(), |(at, _)| at);
+        let end = self.excerpt[start..].char_indices().nth(self.carets).map_or(self.excerpt.len(), |(at, _)| start + at);
+        (&self.excerpt, start..end)
+    }
+
     /// The line of the text (of a long one, the part around the place), and under it a line with carets below the place.
     pub fn caret(&self) -> String {
         format!("{}\n{}{}", self.excerpt, self.margin, "^".repeat(self.carets))
