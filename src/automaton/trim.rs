@@ -1,7 +1,7 @@
 //! Smaller automata of the same language: without states that cannot be reached, with one sink only.
 
 use super::construct::{Gaps, LdgbaParts};
-use super::ldgba::{Edge, Ldgba, StateId};
+use super::ldgba::{Edge, Ldgba, Marks, StateId};
 use super::scc::can_reach;
 
 impl Ldgba {
@@ -30,7 +30,9 @@ impl Ldgba {
             number[usize::from(*old)] = new as StateId;
         }
         let renamed = |q: StateId| number[usize::from(represented(q))];
-        let edge = |edge: &Edge| Edge { target: renamed(edge.target), marks: edge.marks };
+        // Cycles of several sinks become one loop, which must not collect the marks of them all.
+        let marks = |edge: &Edge| if self.is_sink(edge.target) { Marks::NONE } else { edge.marks };
+        let edge = |edge: &Edge| Edge { target: renamed(edge.target), marks: marks(edge) };
         let parts = LdgbaParts {
             propositions: self.propositions().clone(),
             initial: renamed(self.initial()),

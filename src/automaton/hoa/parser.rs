@@ -109,13 +109,12 @@ impl<'a> Parser<'a> {
 
     /// `[label]`, or nothing.
     pub fn bracketed_label(&mut self) -> Result<Option<At<Label>>, Fault> {
-        let start = self.span;
         if !self.accept('[')? {
             return Ok(None);
         }
         let label = self.label(0)?;
         self.expect(']')?;
-        Ok(Some(At { value: label.value, span: self.since(start) }))
+        Ok(Some(label))
     }
 
     /// A label expression: `|` under `&` under `!`.
