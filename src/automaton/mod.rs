@@ -18,6 +18,7 @@ mod scc;
 mod state_based;
 mod statistics;
 mod trim;
+pub mod translate;
 mod word;
 
 pub use construct::{Gaps, LdgbaParts, MAX_SETS, MAX_STATES, SINK_NAME};

@@ -7,12 +7,14 @@
 mod ast;
 pub mod class;
 mod error;
+pub mod implication;
 mod lasso;
 mod lexer;
 pub mod normal_form;
 pub mod parse;
 mod print;
 pub mod semantics;
+pub mod simplify;
 
 pub use ast::{BinaryOperator, Formula, UnaryOperator};
 pub use class::Traits;

@@ -2,6 +2,8 @@
 
 use super::random::{NAMES, formulas, lassos, propositions};
 use ltl_rover::labels::Labels;
+use ltl_rover::ltl::implication::Implications;
+use ltl_rover::ltl::simplify::Simplifier;
 use ltl_rover::ltl::{BinaryOperator as B, Formula, Lasso, Parentheses, Store, Style, UnaryOperator as U, satisfies};
 use proptest::prelude::*;
 
@@ -140,6 +142,26 @@ proptest! {
         prop_assert_eq!(holds(&negated, &word), !holds(&formula, &word), "!({}) became {}", formula, negated);
         for tree in [&normal, &negated] {
             prop_assert!(only_propositions_are_negated(tree), "{}", tree);
+        }
+    }
+
+    #[test]
+    fn simplification_is_sound(formula in formulas(5, 14), word in lassos()) {
+        let mut store = Store::new(NAMES.map(str::to_owned).to_vec());
+        let id = store.insert(&formula);
+        let simple = Simplifier::default().simplify(&mut store, id);
+        let tree = store.formula(simple, 100_000).unwrap();
+        prop_assert_eq!(holds(&tree, &word), holds(&formula, &word), "{} became {}", formula, tree);
+    }
+
+    #[test]
+    fn implication_is_sound(a in formulas(3, 6), b in formulas(3, 6), words in prop::collection::vec(lassos(), 8)) {
+        let mut store = Store::new(NAMES.map(str::to_owned).to_vec());
+        let (x, y) = (store.insert(&a), store.insert(&b));
+        if Implications::default().shows(&store, x, y) {
+            for word in words {
+                prop_assert!(!holds(&a, &word) || holds(&b, &word), "{} does not imply {}", a, b);
+            }
         }
     }
 

@@ -1,0 +1,138 @@
+//! What a user may ask of a translation, and how much work it may cost.
+
+use std::fmt;
+
+/// Where acceptance is written.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub enum Acceptance {
+    /// On the transitions: the smallest automata.
+    #[default]
+    Transition,
+    /// On the states: all edges into a state carry the same marks. The paper's form; a state for every pair of a state and the marks it is
+    /// entered with.
+    State,
+}
+
+/// How much work a translation may cost. Translating LTL is doubly exponential in the worst case, so there is always a limit.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Budget {
+    /// How many states may be made in all, those of discarded attempts included.
+    pub states: usize,
+    /// How many nodes of decision diagrams may be made in all (about 40 bytes each).
+    pub nodes: usize,
+    /// How many fixpoint subformulas may be guessed about: each doubles the number of ε-jumps that are tried.
+    pub guesses: usize,
+}
+
+impl Default for Budget {
+    /// 20 000 states, 1 000 000 nodes, 14 guesses: at most a few seconds.
+    fn default() -> Budget {
+        Budget { states: 20_000, nodes: 1_000_000, guesses: 14 }
+    }
+}
+
+/// What a user may ask of a translation.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct TranslateOptions {
+    /// Where acceptance is written.
+    pub acceptance: Acceptance,
+    /// Groups of propositions of which at most one holds at a time, such as disjoint regions of a map. A letter in which several of a group
+    /// hold is read as if only the one named first held.
+    pub exclusive: Vec<Vec<String>>,
+    /// The alphabet, in order; propositions of the formula that are missing are added behind. Empty: those of the formula in order of
+    /// occurrence.
+    pub propositions: Vec<String>,
+    /// How much work it may cost.
+    pub budget: Budget,
+}
+
+/// Why a formula was not translated.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum TranslateErrorKind {
+    /// [`Budget::states`] was used up.
+    States {
+        /// The limit.
+        limit: usize,
+    },
+    /// [`Budget::nodes`] was used up.
+    Nodes {
+        /// The limit.
+        limit: usize,
+    },
+    /// More fixpoint subformulas than [`Budget::guesses`] would have to be guessed about.
+    Guesses {
+        /// How many there are.
+        found: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// More accepting sets than an automaton may have.
+    Sets {
+        /// How many are needed.
+        found: usize,
+    },
+    /// More propositions than an alphabet may have, or one that is listed twice.
+    Propositions(crate::labels::PropositionsError),
+    /// An exclusive group names a proposition twice, or two groups share one.
+    Exclusive {
+        /// The proposition.
+        name: String,
+    },
+    /// The caller asked to stop.
+    Cancelled,
+    /// The automaton's guards are too complex.
+    Automaton(crate::automaton::LdgbaError),
+}
+
+/// Why a formula was not translated, and the part of it that was too much.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TranslateError {
+    kind: TranslateErrorKind,
+    subformula: Option<String>,
+}
+
+impl TranslateError {
+    pub(super) fn new(kind: TranslateErrorKind) -> TranslateError {
+        TranslateError { kind, subformula: None }
+    }
+
+    /// What went wrong.
+    pub fn kind(&self) -> &TranslateErrorKind {
+        &self.kind
+    }
+
+    /// The part of the formula whose automaton grew too large, if one can be blamed.
+    pub fn subformula(&self) -> Option<&str> {
+        self.subformula.as_deref()
+    }
+}
+
+impl fmt::Display for TranslateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            TranslateErrorKind::States { limit } => write!(f, "the translation needs more than the {limit} states allowed")?,
+            TranslateErrorKind::Nodes { limit } => {
+                write!(f, "the translation needs more than the {limit} diagram nodes allowed")?
+            }
+            TranslateErrorKind::Guesses { found, limit } => {
+                write!(f, "the translation has to guess about {found} subformulas; at most {limit} are allowed")?;
+            }
+            TranslateErrorKind::Sets { found } => {
+                write!(f, "the automaton needs {found} accepting sets; at most {} are allowed", crate::automaton::MAX_SETS)?;
+            }
+            TranslateErrorKind::Propositions(error) => write!(f, "{error}")?,
+            TranslateErrorKind::Exclusive { name } => {
+                write!(f, "the proposition `{name}` is in two exclusive groups, or twice in one; groups must not overlap")?;
+            }
+            TranslateErrorKind::Cancelled => write!(f, "the translation was cancelled")?,
+            TranslateErrorKind::Automaton(error) => write!(f, "{error}")?,
+        }
+        match &self.subformula {
+            Some(part) => write!(f, " (it grew too large at `{part}`)"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for TranslateError {}

@@ -1,0 +1,146 @@
+//! Several constructions for one formula, of which the smallest result is kept.
+//!
+//! Smallest: fewest states, then fewest jumps, then fewest accepting sets, then fewest edges. In case of a tie the earlier attempt wins, so the
+//! result does not depend on anything but the formula.
+
+use super::asymmetric::Layout;
+use super::breakpoint::{Renewal, breakpoint};
+use super::graph::Graph;
+use super::limit::{Guess, limit_deterministic};
+use super::pieces::{co_safety, product, recurrence, safety};
+use super::reduce::reduced;
+use super::target::{Together, recurring, trivial};
+use super::unfold::Unfolding;
+use super::work::Stop;
+use crate::bdd::Bdd;
+use crate::ltl::{Node, NodeId};
+
+/// What is compared.
+fn size(graph: &Graph) -> (usize, usize, usize, usize) {
+    (graph.states.len(), graph.jumps(), graph.sets, graph.edges())
+}
+
+/// The best attempt so far, and why others failed.
+struct Best {
+    graph: Option<Graph>,
+    stop: Option<Stop>,
+}
+
+impl Best {
+    /// Takes the result of one attempt. Only cancellation is passed on: a budget that ran out may not matter.
+    fn offer(&mut self, u: &mut Unfolding<'_>, attempt: Result<Graph, Stop>) -> Result<(), Stop> {
+        let attempt = attempt.and_then(|graph| reduced(u, graph));
+        match attempt {
+            Err(Stop::Cancelled) => return Err(Stop::Cancelled),
+            Err(stop) => {
+                self.stop.get_or_insert(stop);
+            }
+            Ok(graph) => {
+                if self.graph.as_ref().is_none_or(|best| size(&graph) < size(best)) {
+                    self.graph = Some(graph);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether nothing can be smaller.
+    fn is_minimal(&self) -> bool {
+        self.graph.as_ref().is_some_and(|graph| graph.states.len() == 1 && graph.jumps() == 0)
+    }
+
+    fn result(self) -> Result<Graph, Stop> {
+        self.graph.ok_or(self.stop.unwrap_or(Stop::States))
+    }
+}
+
+/// How many states an attempt may make that competes with a result of `best` states.
+fn allowance(u: &Unfolding<'_>, best: &Best) -> usize {
+    let limit = u.work.budget().states;
+    best.graph.as_ref().map_or(limit, |graph| limit.min(60 + 12 * graph.states.len()))
+}
+
+/// The smallest automaton that any of the constructions gives for `formula`.
+pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, Stop> {
+    let mut best = Best { graph: None, stop: None };
+    let parts = conjuncts(u, formula);
+    let (easy, hard): (Vec<NodeId>, Vec<NodeId>) = parts.iter().partition(|id| u.store.traits(**id).pi <= 2);
+    if hard.is_empty() {
+        u.work.start_attempt(u.work.budget().states);
+        let attempt = deterministic(u, &parts);
+        best.offer(u, attempt)?;
+        if best.is_minimal() {
+            return best.result();
+        }
+        for renewal in [Renewal::Raw, Renewal::Unfolded] {
+            u.work.start_attempt(allowance(u, &best));
+            let attempt = u.raw(formula).and_then(|raw| breakpoint(u, raw, renewal));
+            best.offer(u, attempt)?;
+        }
+    } else if !easy.is_empty() {
+        let rest = u.store.and(hard);
+        let attempt = smallest(u, rest).and_then(|rest| {
+            u.work.start_attempt(u.work.budget().states);
+            let beside = deterministic(u, &easy)?;
+            let beside = reduced(u, beside)?;
+            product(u, &beside, &rest)
+        });
+        best.offer(u, attempt)?;
+    }
+    if best.is_minimal() {
+        return best.result();
+    }
+    for (guess, together) in [
+        (Guess::Symmetric, Together::Product),
+        (Guess::Split, Together::Product),
+        (Guess::Symmetric, Together::RoundRobin),
+        (Guess::Split, Together::RoundRobin),
+        (Guess::Asymmetric(Layout::Joint, Renewal::Raw), Together::Product),
+        (Guess::Asymmetric(Layout::Joint, Renewal::Unfolded), Together::Product),
+        (Guess::Asymmetric(Layout::Pieces, Renewal::Raw), Together::Product),
+        (Guess::Asymmetric(Layout::Pieces, Renewal::Unfolded), Together::Product),
+    ] {
+        u.work.start_attempt(allowance(u, &best));
+        let attempt = u.raw(formula).and_then(|raw| limit_deterministic(u, raw, guess, together));
+        best.offer(u, attempt)?;
+    }
+    best.result()
+}
+
+fn conjuncts(u: &Unfolding<'_>, formula: NodeId) -> Vec<NodeId> {
+    match u.store.node(formula) {
+        Node::And(list) => list.to_vec(),
+        _ => vec![formula],
+    }
+}
+
+/// A deterministic automaton for a conjunction of Π₂ formulas: the safety conjuncts tracked together, each `G F` and each other conjunct by an
+/// automaton of its own.
+fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId]) -> Result<Graph, Stop> {
+    let mut safe = Bdd::TRUE;
+    let mut pieces = Vec::new();
+    for &part in parts {
+        let raw = u.raw(part)?;
+        let traits = u.store.traits(part);
+        if traits.is_safety() {
+            safe = u.bdd.and(safe, raw)?;
+        } else if traits.is_co_safety() {
+            pieces.push(co_safety(u, raw)?);
+        } else if let Some(chi) = recurring(u, part) {
+            pieces.push(recurrence(u, chi)?);
+        } else {
+            let mut best = Best { graph: None, stop: None };
+            for renewal in [Renewal::Raw, Renewal::Unfolded] {
+                let attempt = breakpoint(u, raw, renewal);
+                best.offer(u, attempt)?;
+            }
+            pieces.push(best.result()?);
+        }
+    }
+    let mut all = if safe == Bdd::TRUE { trivial(u)? } else { safety(u, safe)? };
+    for piece in pieces {
+        let piece = reduced(u, piece)?;
+        all = product(u, &all, &piece)?;
+    }
+    Ok(all)
+}

@@ -1,0 +1,301 @@
+//! Formulas as states: the unfolding of fixpoints, and the formula that is left after a letter, `af`.
+//!
+//! A formula is a decision diagram over the propositions (what must hold now) and over variables nx(ψ), read "Xψ" (what must hold from the
+//! next instant on). The unfolding is unf(Xψ) = N(ψ), unf(Fψ) = unf ψ ∨ nx(Fψ), unf(Gψ) = unf ψ ∧ nx(Gψ), for U and W
+//! unf χ ∨ (unf ψ ∧ nx(self)), for R and M unf χ ∧ (unf ψ ∨ nx(self)), where N distributes nx over ∧ and ∨. The successor af(B, σ) of a state
+//! is the cofactor of B by the letter σ, a diagram over nx(·) only (the *raw* successor), in which every nx(ψ) is then replaced by unf(ψ).
+//! Formulas with the same unfolding are one state.
+//!
+//! af: definition 2.3 of [Esparza, Křetínský & Sickert](crate::bib::Esparza2020); unfolding: definition 6 of
+//! [Sickert et al.](crate::bib::Sickert2016).
+
+use super::work::{Stop, Work};
+use crate::bdd::{Bdd, Manager, Memo, Substitution, Variable};
+use crate::ltl::simplify::Simplifier;
+use crate::ltl::{Node, NodeId, Store};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A letter set and the raw successor under it.
+pub(super) type Step = (Bdd, Bdd);
+
+/// The formulas, their diagrams, and everything remembered about them during one translation.
+pub(super) struct Unfolding<'a> {
+    pub store: Store,
+    pub simplifier: Simplifier,
+    pub bdd: Manager,
+    pub work: Work<'a>,
+    /// The letters that can occur.
+    pub letters: Bdd,
+    /// Groups of propositions of which at most one holds.
+    pub exclusive: Vec<Vec<Variable>>,
+    /// How many propositions there are; variable i < `propositions` is proposition i, the others are nx(·).
+    propositions: Variable,
+    /// The ψ of the variables nx(ψ), in the order of the variables.
+    atoms: Vec<NodeId>,
+    variables: Memo<usize, Variable>,
+    raw: Memo<usize, Bdd>,
+    unfolded: Memo<usize, Bdd>,
+    replacement: Substitution,
+    steps: Memo<Bdd, Rc<[Step]>>,
+    /// Per unfolded diagram, the first raw diagram it came from: the formula that names the state.
+    origins: Memo<Bdd, Bdd>,
+}
+
+impl<'a> Unfolding<'a> {
+    /// For formulas of `store`, whose list of names is complete.
+    pub fn new(store: Store, work: Work<'a>) -> Unfolding<'a> {
+        let propositions = store.names().len() as Variable;
+        let bdd = Manager::new(work.budget().nodes);
+        Unfolding {
+            store,
+            simplifier: Simplifier::default(),
+            bdd,
+            work,
+            letters: Bdd::TRUE,
+            exclusive: Vec::new(),
+            propositions,
+            atoms: Vec::new(),
+            variables: Memo::default(),
+            raw: Memo::default(),
+            unfolded: Memo::default(),
+            replacement: Substitution::default(),
+            steps: Memo::default(),
+            origins: Memo::default(),
+        }
+    }
+
+    /// N(ψ): `id` from the next instant on, as a diagram over nx(·).
+    pub fn raw(&mut self, id: NodeId) -> Result<Bdd, Stop> {
+        if let Some(&known) = self.raw.get(&id.index()) {
+            return Ok(known);
+        }
+        let result = match self.store.node(id).clone() {
+            Node::True => Bdd::TRUE,
+            Node::False => Bdd::FALSE,
+            Node::And(list) => {
+                let mut all = Bdd::TRUE;
+                for part in list.iter() {
+                    let part = self.raw(*part)?;
+                    all = self.bdd.and(all, part)?;
+                }
+                all
+            }
+            Node::Or(list) => {
+                let mut any = Bdd::FALSE;
+                for part in list.iter() {
+                    let part = self.raw(*part)?;
+                    any = self.bdd.or(any, part)?;
+                }
+                any
+            }
+            _ => {
+                let variable = self.variable(id);
+                self.bdd.variable(variable)?
+            }
+        };
+        self.raw.insert(id.index(), result);
+        Ok(result)
+    }
+
+    fn variable(&mut self, atom: NodeId) -> Variable {
+        let next = self.propositions + self.atoms.len() as Variable;
+        let variable = *self.variables.entry(atom.index()).or_insert(next);
+        if variable == next {
+            self.atoms.push(atom);
+        }
+        variable
+    }
+
+    /// unf(ψ).
+    pub fn unfold(&mut self, id: NodeId) -> Result<Bdd, Stop> {
+        if let Some(&known) = self.unfolded.get(&id.index()) {
+            return Ok(known);
+        }
+        let result = match self.store.node(id).clone() {
+            Node::True => Bdd::TRUE,
+            Node::False => Bdd::FALSE,
+            Node::Literal { proposition, positive } => self.bdd.literal(proposition as Variable, positive)?,
+            Node::And(list) => {
+                let mut all = Bdd::TRUE;
+                for part in list.iter() {
+                    let part = self.unfold(*part)?;
+                    all = self.bdd.and(all, part)?;
+                }
+                all
+            }
+            Node::Or(list) => {
+                let mut any = Bdd::FALSE;
+                for part in list.iter() {
+                    let part = self.unfold(*part)?;
+                    any = self.bdd.or(any, part)?;
+                }
+                any
+            }
+            Node::Next(a) => self.raw(a)?,
+            Node::Finally(a) => {
+                let (now, later) = (self.unfold(a)?, self.raw(id)?);
+                self.bdd.or(now, later)?
+            }
+            Node::Globally(a) => {
+                let (now, later) = (self.unfold(a)?, self.raw(id)?);
+                self.bdd.and(now, later)?
+            }
+            Node::Until(a, b) | Node::WeakUntil(a, b) => {
+                let (a, b, later) = (self.unfold(a)?, self.unfold(b)?, self.raw(id)?);
+                let kept = self.bdd.and(a, later)?;
+                self.bdd.or(b, kept)?
+            }
+            Node::Release(a, b) | Node::StrongRelease(a, b) => {
+                let (a, b, later) = (self.unfold(a)?, self.unfold(b)?, self.raw(id)?);
+                let kept = self.bdd.or(a, later)?;
+                self.bdd.and(b, kept)?
+            }
+        };
+        self.unfolded.insert(id.index(), result);
+        Ok(result)
+    }
+
+    /// `f` with every nx(ψ) replaced by unf(ψ).
+    pub fn unfold_raw(&mut self, f: Bdd) -> Result<Bdd, Stop> {
+        for variable in self.bdd.support(f) {
+            if variable >= self.propositions && !self.replacement.has(variable) {
+                let value = self.unfold(self.atom(variable))?;
+                self.replacement.set(variable, value);
+            }
+        }
+        let unfolded = self.bdd.substitute(f, &mut self.replacement)?;
+        self.origins.entry(unfolded).or_insert(f);
+        Ok(unfolded)
+    }
+
+    /// The ψ of the variable nx(ψ).
+    fn atom(&self, variable: Variable) -> NodeId {
+        self.atoms[(variable - self.propositions) as usize]
+    }
+
+    /// The ψ of all nx(ψ) on which `f` depends, in the order of the variables.
+    pub fn atoms(&self, f: Bdd) -> Vec<NodeId> {
+        self.bdd.support(f).into_iter().filter(|v| *v >= self.propositions).map(|v| self.atom(v)).collect()
+    }
+
+    /// `f` with every nx(ψ) replaced by the diagram that `value` gives for ψ.
+    pub fn replace(&mut self, f: Bdd, mut value: impl FnMut(&mut Self, NodeId) -> Result<Bdd, Stop>) -> Result<Bdd, Stop> {
+        let mut substitution = Substitution::default();
+        for variable in self.bdd.support(f) {
+            if variable >= self.propositions {
+                let by = value(self, self.atom(variable))?;
+                substitution.set(variable, by);
+            }
+        }
+        Ok(self.bdd.substitute(f, &mut substitution)?)
+    }
+
+    /// The raw successors of the state `f`, each with the letters that lead there; letters that lead to `false` or cannot occur are left out.
+    /// The letter sets are disjoint and the order is the same in every run.
+    pub fn steps(&mut self, f: Bdd) -> Result<Rc<[Step]>, Stop> {
+        if let Some(known) = self.steps.get(&f) {
+            return Ok(known.clone());
+        }
+        let mut leaves = Memo::default();
+        let all = self.leaves(f, &mut leaves)?;
+        let mut steps = Vec::new();
+        for &(raw, guard) in all.iter() {
+            let guard = self.bdd.and(guard, self.letters)?;
+            if raw != Bdd::FALSE && guard != Bdd::FALSE {
+                steps.push((guard, raw));
+            }
+        }
+        let steps: Rc<[Step]> = steps.into();
+        self.steps.insert(f, steps.clone());
+        Ok(steps)
+    }
+
+    /// The diagrams over nx(·) that `f` ends in, each with the letters that lead there.
+    fn leaves(&mut self, f: Bdd, known: &mut Memo<Bdd, Rc<[Step]>>) -> Result<Rc<[Step]>, Stop> {
+        let Some(variable) = self.bdd.top(f).filter(|v| *v < self.propositions) else {
+            return Ok([(f, Bdd::TRUE)].into());
+        };
+        if let Some(leaves) = known.get(&f) {
+            return Ok(leaves.clone());
+        }
+        let (low, high) = self.bdd.branches(f);
+        let mut guards: BTreeMap<Bdd, (Bdd, Bdd)> = BTreeMap::new();
+        for &(leaf, guard) in self.leaves(low, known)?.iter() {
+            guards.insert(leaf, (guard, Bdd::FALSE));
+        }
+        for &(leaf, guard) in self.leaves(high, known)?.iter() {
+            guards.entry(leaf).or_insert((Bdd::FALSE, Bdd::FALSE)).1 = guard;
+        }
+        let condition = self.bdd.variable(variable)?;
+        let mut leaves = Vec::with_capacity(guards.len());
+        for (leaf, (low, high)) in guards {
+            leaves.push((leaf, self.bdd.if_then_else(condition, high, low)?));
+        }
+        self.work.tick(leaves.len())?;
+        let leaves: Rc<[Step]> = leaves.into();
+        known.insert(f, leaves.clone());
+        Ok(leaves)
+    }
+
+    /// Splits a monotone diagram over nx(·) into its minimal sets of atoms that suffice. `None` if there are more than `limit`.
+    pub fn minimal_clauses(&mut self, f: Bdd, limit: usize) -> Option<Vec<Vec<Variable>>> {
+        if f.is_constant() {
+            return Some(if f == Bdd::TRUE { vec![Vec::new()] } else { Vec::new() });
+        }
+        let variable = self.bdd.top(f).expect("not constant");
+        let (low, high) = self.bdd.branches(f);
+        let mut clauses = self.minimal_clauses(low, limit)?;
+        for clause in self.minimal_clauses(high, limit)? {
+            if !clauses.iter().any(|smaller| smaller.iter().all(|v| clause.contains(v))) {
+                let mut clause = clause;
+                clause.insert(0, variable);
+                clauses.push(clause);
+            }
+        }
+        (clauses.len() <= limit).then_some(clauses)
+    }
+
+    /// `f`, conjoined with what its atoms are seen to imply about `atoms`. It has the same words as `f`, and if it implies `g` as a diagram, then
+    /// every word that satisfies `f` satisfies `g`.
+    pub fn with_implications(&mut self, f: Bdd, atoms: &[NodeId]) -> Result<Bdd, Stop> {
+        let mut assumed = f;
+        for a in self.atoms(f) {
+            for &b in atoms {
+                if a != b && self.simplifier.implies(&self.store, a, b) {
+                    let (a, b) = (self.raw(a)?, self.raw(b)?);
+                    let rule = self.bdd.if_then_else(a, b, Bdd::TRUE)?;
+                    assumed = self.bdd.and(assumed, rule)?;
+                }
+            }
+        }
+        Ok(assumed)
+    }
+
+    /// Whether `variable` stands for a proposition.
+    pub fn is_proposition(&self, variable: Variable) -> bool {
+        variable < self.propositions
+    }
+
+    /// The conjunction of states as text; empty if none of them is known as a formula.
+    pub fn name(&mut self, states: &[Bdd]) -> String {
+        let mut parts = Vec::new();
+        for state in states {
+            let Some(&origin) = self.origins.get(state) else { return String::new() };
+            let Some(clauses) = self.minimal_clauses(origin, MOST_CLAUSES) else { return String::new() };
+            let mut disjuncts = Vec::new();
+            for clause in clauses {
+                let atoms: Vec<_> = clause.iter().map(|v| self.atom(*v)).collect();
+                disjuncts.push(self.store.and(atoms));
+            }
+            parts.push(self.store.or(disjuncts));
+        }
+        let all = self.store.and(parts);
+        let all = self.simplifier.simplify(&mut self.store, all);
+        self.store.formula(all, LONGEST_NAME).map_or_else(String::new, |formula| formula.to_string())
+    }
+}
+
+/// States that are a disjunction of more clauses, or formulas with more nodes, get no name.
+const MOST_CLAUSES: usize = 12;
+const LONGEST_NAME: usize = 40;

@@ -1,0 +1,7 @@
+//! Translation: the language on lasso words against the semantics, sizes, options, budgets.
+
+mod translate {
+    pub mod language;
+    pub mod options;
+    pub mod words;
+}
