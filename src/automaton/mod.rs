@@ -17,8 +17,8 @@ mod matches;
 mod scc;
 mod state_based;
 mod statistics;
-mod trim;
 pub mod translate;
+mod trim;
 mod word;
 
 pub use construct::{Gaps, LdgbaParts, MAX_SETS, MAX_STATES, SINK_NAME};
