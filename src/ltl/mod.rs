@@ -15,6 +15,8 @@ pub mod parse;
 mod print;
 pub mod semantics;
 pub mod simplify;
+mod simplify_disjunction;
+mod simplify_limit;
 
 pub use ast::{BinaryOperator, Formula, UnaryOperator};
 pub use class::Traits;

@@ -4,7 +4,9 @@ use super::exclusive::first_holds;
 use super::graph::Graph;
 use super::options::{TranslateError, TranslateErrorKind};
 use super::unfold::Unfolding;
-use crate::automaton::{Cube, Edge, Gaps, Guard, Ldgba, LdgbaParts, MAX_SETS, Marks, StateId};
+use crate::automaton::construct::{Gaps, LdgbaParts, MAX_SETS};
+use crate::automaton::guard::{Cube, Guard};
+use crate::automaton::ldgba::{Edge, Ldgba, Marks, StateId};
 use crate::bdd::{Bdd, Manager, Substitution};
 use crate::labels::Propositions;
 

@@ -17,7 +17,7 @@ use super::target::{Besides, Target, Together};
 use super::unfold::Unfolding;
 use super::work::Stop;
 use super::{split, symmetric};
-use crate::automaton::components;
+use crate::automaton::scc::components;
 use crate::bdd::Bdd;
 use std::collections::HashMap;
 

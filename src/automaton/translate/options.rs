@@ -82,7 +82,7 @@ pub enum TranslateErrorKind {
     /// The caller asked to stop.
     Cancelled,
     /// The automaton's guards are too complex.
-    Automaton(crate::automaton::LdgbaError),
+    Automaton(crate::automaton::ldgba_error::LdgbaError),
 }
 
 /// Why a formula was not translated, and the part of it that was too much.
@@ -119,7 +119,11 @@ impl fmt::Display for TranslateError {
                 write!(f, "the translation has to guess about {found} subformulas; at most {limit} are allowed")?;
             }
             TranslateErrorKind::Sets { found } => {
-                write!(f, "the automaton needs {found} accepting sets; at most {} are allowed", crate::automaton::MAX_SETS)?;
+                write!(
+                    f,
+                    "the automaton needs {found} accepting sets; at most {} are allowed",
+                    crate::automaton::construct::MAX_SETS
+                )?;
             }
             TranslateErrorKind::Propositions(error) => write!(f, "{error}")?,
             TranslateErrorKind::Exclusive { name } => {

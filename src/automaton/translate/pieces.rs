@@ -117,5 +117,5 @@ pub(super) fn before_a_jump(graph: &Graph) -> Vec<bool> {
     let goal: Vec<bool> = graph.states.iter().map(|state| !state.jumps.is_empty()).collect();
     let successors: Vec<Vec<usize>> =
         graph.states.iter().map(|state| state.edges.iter().map(|edge| edge.target).collect()).collect();
-    crate::automaton::can_reach(&successors, &goal)
+    crate::automaton::scc::can_reach(&successors, &goal)
 }

@@ -6,7 +6,7 @@ use super::graph::{Arrow, Graph, MarkSet, State, merge_edges};
 use super::pieces::before_a_jump;
 use super::unfold::Unfolding;
 use super::work::Stop;
-use crate::automaton::{can_reach, components};
+use crate::automaton::scc::{can_reach, components};
 use crate::bdd::Bdd;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

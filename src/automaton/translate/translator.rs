@@ -5,7 +5,7 @@ use super::options::{Acceptance, TranslateError, TranslateErrorKind, TranslateOp
 use super::unfold::Unfolding;
 use super::work::{Stop, Work};
 use super::{exclusive, finish, portfolio, state_based};
-use crate::automaton::Ldgba;
+use crate::automaton::ldgba::Ldgba;
 use crate::labels::Propositions;
 use crate::ltl::{Formula, Store};
 
