@@ -142,3 +142,71 @@ fn overrides_change_what_they_name_and_nothing_else() {
     }
     assert!("learner.n_step".parse::<Override>().is_err());
 }
+
+/// B1's recipe for another environment and formula.
+fn elsewhere(environment: &str, ltl: &str) -> String {
+    let b1 = b1();
+    let hoa = b1.lines().find(|line| line.starts_with("hoa = ")).unwrap();
+    b1.replace("name = \"ball_pass\"", environment).replace("G F r1 & G F r2", ltl).replace(hoa, "hoa = \"own.hoa\"")
+}
+
+const GF_GREEN: &str =
+    "HOA: v1\nStates: 1\nStart: 0\nAP: 1 \"green\"\nAcceptance: 1 Inf(0)\n--BODY--\nState: 0\n[0] 0 {0}\n[!0] 0\n--END--\n";
+
+fn green(environment: &str, prepare: impl FnOnce(Task) -> Task) -> Result<Setup, TaskError> {
+    let task = prepare(Task::parse(&elsewhere(environment, "G F green"), "task.toml")?);
+    Setup::open(
+        task,
+        "fast",
+        &["learner.batch=8".parse().unwrap(), "learner.exploration.warm_up=20".parse().unwrap()],
+        Some(GF_GREEN),
+    )
+}
+
+#[test]
+fn environments_take_only_their_own_options() {
+    for (environment, line, said) in [
+        ("name = \"rover\"", 5, "needs a map"),
+        ("name = \"rover\"\nmap = \"mela\"", 6, "did you mean `melas`?"),
+        ("name = \"cart_pole\"\nmap = \"melas\"", 6, "only `rover` has a map"),
+        ("name = \"rover\"\nmap = \"melas\"\ncurrent = \"at_a\"", 7, "only `islands` has a current"),
+        ("name = \"islands\"\ncurrent = \"at_c\"", 6, "unknown variant `at_c`"),
+    ] {
+        let Err(error) = green(environment, |task| task) else { panic!("{environment} should be refused") };
+        assert!(error.to_string().contains(said), "{error}");
+        assert_eq!(error.position().map(|p| p.0), Some(line), "{error}");
+    }
+    let environment = |section: &str| {
+        let task = Task::parse(&elsewhere(section, "G F a"), "task.toml").unwrap();
+        task.environment().unwrap().spec().propositions.iter().collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(environment("name = \"rover\"\nmap = \"melas\""), "m1 m2 unsafe");
+    assert_eq!(environment("name = \"islands\"\ncurrent = \"at_b\""), "a b");
+}
+
+#[test]
+fn a_map_of_ones_own_goes_with_the_checkpoint() {
+    let pixel = |i: usize| if i % 20 < 3 { [0, 255, 0, 255] } else { [255; 4] };
+    let picture = ltl_rover::env::map::Picture { width: 20, height: 10, pixels: (0..200).map(pixel).collect() };
+    let map = ltl_rover::env::map::RoverMap::from_picture("own", &picture).unwrap();
+    let section = "name = \"rover\"\nmap = \"own.png\"";
+    let task = Task::parse(&elsewhere(section, "G F green"), "task.toml").unwrap();
+    assert_eq!(task.map_file(), Some("own.png"));
+    let setup = green(section, |task| task.with_map(map)).unwrap();
+    let mut run = setup.run(3);
+    for _ in 0..60 {
+        run.advance();
+    }
+    let saved = run.save(&setup.origin(), ltl_rover::agent::Replays::Keep);
+    let checkpoint = ltl_rover::train::Checkpoint::read(&saved).unwrap();
+    let again = Setup::from_checkpoint(&checkpoint).unwrap();
+    let mut resumed = again.resume(&checkpoint).unwrap();
+    for _ in 0..60 {
+        run.advance();
+        resumed.advance();
+    }
+    assert!(
+        resumed.save(&again.origin(), ltl_rover::agent::Replays::Keep)
+            == run.save(&setup.origin(), ltl_rover::agent::Replays::Keep)
+    );
+}

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use crate::agent::ModularDdpg;
+use crate::env::map::{MapError, RoverMap};
 use crate::task::{Override, Setup, Task, TaskError};
 use crate::train::Checkpoint;
 use std::fs;
@@ -47,14 +48,38 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
     fs::rename(&partial, path).map_err(|e| Failure::file(path, e))
 }
 
-/// Opens the task at `path`, with the automaton beside it if it names one.
+/// The rover map in a file: a flat PNG, or a map file with the picture that it names for labels.
 ///
 /// # Errors
-/// A file that cannot be read; what is wrong with the task or its automaton, at its place.
+/// A file that cannot be read; what is wrong with the map, at its place.
+pub fn map(path: &Path) -> Result<RoverMap, Failure> {
+    let bytes = |path: &Path| fs::read(path).map_err(|e| Failure::file(path, e));
+    let refuse = |e: MapError| Failure::file(path, e);
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        return RoverMap::from_png(&name, &bytes(path)?).map_err(refuse);
+    }
+    let text = text(path)?;
+    let image = RoverMap::image_file(&text).map_err(refuse)?;
+    let image = image.map(|file| bytes(&beside(path, &file))).transpose()?;
+    RoverMap::from_json(&text, image.as_deref()).map_err(refuse)
+}
+
+/// `file`, relative to the folder of `path`.
+fn beside(path: &Path, file: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(file)
+}
+
+/// Opens the task at `path`, with the automaton and the map beside it if it names them.
+///
+/// # Errors
+/// A file that cannot be read; what is wrong with the task, its automaton or its map, at its place.
 pub fn open(path: &Path, preset: &str, overrides: &[Override]) -> Result<Setup, Failure> {
-    let task = Task::parse(&text(path)?, &path.to_string_lossy())?;
-    let hoa = task.file().specification.hoa.as_ref().map(|file| path.parent().unwrap_or(Path::new("")).join(file));
-    let hoa = hoa.map(|file| text(&file)).transpose()?;
+    let mut task = Task::parse(&text(path)?, &path.to_string_lossy())?;
+    if let Some(file) = task.map_file().map(|file| beside(path, file)) {
+        task = task.with_map(map(&file)?);
+    }
+    let hoa = task.file().specification.hoa.as_ref().map(|file| text(&beside(path, file))).transpose()?;
     Ok(Setup::open(task, preset, overrides, hoa.as_deref())?)
 }
 

@@ -26,6 +26,7 @@ const DT: f32 = 0.2;
 
 /// Where a current sweeps the boat away, straight from the island's centre at 2 m/s.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Current {
     /// Nowhere: one can stay at either island.

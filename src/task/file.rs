@@ -1,6 +1,7 @@
 //! The task file as it is written: TOML, every key known, what is left out taken from the defaults.
 
 use super::preset::Preset;
+use crate::env::Current;
 use crate::product::{Renaming, Start};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -32,6 +33,12 @@ pub struct TaskFile {
 pub struct EnvironmentSection {
     /// Its name, such as `ball_pass`.
     pub name: String,
+    /// For `rover`: a shipped map (`melas`, `victoria`), or a map file (JSON, or a flat PNG) relative to the task file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map: Option<String>,
+    /// For `islands`: where the current is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub current: Option<Current>,
 }
 
 /// What is to be done: a formula, an automaton, or both, which must then agree.

@@ -14,6 +14,6 @@ mod setup;
 pub use error::TaskError;
 pub use file::{EnvironmentSection, EvaluationSection, SpecificationSection, TaskFile};
 pub use parse::{MAX_TEXT, Override, Task};
-pub use parts::{environment, environments};
+pub use parts::ENVIRONMENTS;
 pub use preset::{Preset, ProductSection};
 pub use setup::Setup;

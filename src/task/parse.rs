@@ -3,11 +3,13 @@
 use super::check::out_of_range;
 use super::error::{TaskError, did_you_mean, suggestion};
 use super::file::TaskFile;
-use super::parts::{environment, environments};
+use super::parts::environment;
 use super::preset::Preset;
 use crate::env::Environment;
+use crate::env::map::RoverMap;
 use crate::ltl::Formula;
 use std::ops::Range;
+use std::sync::Arc;
 use toml::de::DeTable;
 
 /// The longest task file that is read, in bytes.
@@ -21,6 +23,7 @@ pub struct Task {
     pub(super) formula: Formula,
     pub(super) text: String,
     pub(super) name: String,
+    pub(super) map: Option<Arc<RoverMap>>,
 }
 
 /// A value to put in place of a preset's: where, and what.
@@ -54,7 +57,7 @@ impl Task {
             let message = e.message().trim().to_owned();
             TaskError::new(name, text, e.span(), &message).with_help(suggestion(&message))
         })?;
-        let task = Task { formula: Formula::True, file, text: text.to_owned(), name: name.to_owned() };
+        let task = Task { formula: Formula::True, file, text: text.to_owned(), name: name.to_owned(), map: None };
         let error = |path: &[&str], message: String| TaskError::new(name, text, task.place(path), message);
         if task.file.presets.is_empty() {
             return Err(error(&["presets"], "a task needs at least one preset".to_owned()));
@@ -99,17 +102,26 @@ impl Task {
         &self.formula
     }
 
+    /// The file of the user's own rover map, if the task names one: whoever may read files reads it, and hands it in by
+    /// [`Task::with_map`].
+    pub fn map_file(&self) -> Option<&str> {
+        self.file.environment.map.as_deref().filter(|name| RoverMap::shipped(name).is_none())
+    }
+
+    /// With the map that was read from [`Task::map_file`].
+    #[must_use]
+    pub fn with_map(self, map: RoverMap) -> Task {
+        Task { map: Some(Arc::new(map)), ..self }
+    }
+
     /// The environment.
     ///
     /// # Errors
-    /// If there is none of that name.
+    /// If there is none of that name, or its map or options do not go with it.
     pub fn environment(&self) -> Result<Box<dyn Environment>, TaskError> {
-        let wanted = &self.file.environment.name;
-        environment(wanted).ok_or_else(|| {
-            let known: Vec<&str> = environments().collect();
-            let message = format!("there is no environment `{wanted}`; known are `{}`", known.join("`, `"));
-            let place = self.place(&["environment", "name"]);
-            TaskError::new(&self.name, &self.text, place, message).with_help(did_you_mean(wanted, known))
+        environment(&self.file.environment, self.map.as_ref()).map_err(|no| {
+            let place = self.place(&["environment", no.key]);
+            TaskError::new(&self.name, &self.text, place, no.message).with_help(no.help)
         })
     }
 

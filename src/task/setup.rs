@@ -7,6 +7,7 @@ use super::parse::{Override, Task};
 use super::preset::Preset;
 use crate::agent::{Engine, ModularDdpg, Sizes};
 use crate::automaton::{Embedding, Ldgba};
+use crate::env::map::RoverMap;
 use crate::eval::{Rollout, RolloutSettings};
 use crate::nn::{ActorCritic, NetworkShape, fused::Fused};
 use crate::product::{EpMdp, LdgbaReward, Reward};
@@ -82,6 +83,7 @@ impl Setup {
             preset: self.preset_name.clone(),
             settings: toml::to_string(&self.preset).expect("a preset has a form in TOML"),
             hoa: self.hoa.clone(),
+            map: self.task.map.as_ref().map(|map| map.to_json()),
             ..Origin::default()
         }
     }
@@ -92,7 +94,11 @@ impl Setup {
     /// What is wrong with the task, the settings or the automaton in it.
     pub fn from_checkpoint(checkpoint: &Checkpoint) -> Result<Setup, TaskError> {
         let origin = &checkpoint.origin;
-        let task = Task::parse(&origin.task, &origin.task_name)?;
+        let mut task = Task::parse(&origin.task, &origin.task_name)?;
+        if let Some(text) = &origin.map {
+            let map = RoverMap::from_json(text, None);
+            task = task.with_map(map.map_err(|e| TaskError::new("map", "", None, e.to_string()))?);
+        }
         let settings = Preset::parse(&origin.settings, &format!("settings of {}", origin.task_name))?;
         let automaton = automaton(&task, origin.hoa.as_deref())?;
         Ok(Setup { hoa: origin.hoa.clone(), ..Setup::join(task, &origin.preset, settings, automaton)? })

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `format` | [`FORMAT`] |
 //! | `task_name`, `task`, `hoa` | the task file and its automaton, as they were read |
+//! | `map` | the user's own rover map, if there is one, as one map file |
 //! | `preset`, `settings` | the preset's name; all its numbers with overrides in place, in TOML |
 //! | `seed`, `steps`, `episodes`, `updates` | of the run |
 //! | `state` | everything else that is no tensor, in TOML; absent in a policy file, from which nothing can be continued |
@@ -43,6 +44,8 @@ pub struct Origin {
     pub settings: String,
     /// The text of the automaton in the HOA format, if there was one.
     pub hoa: Option<String>,
+    /// The user's own rover map as one map file, if there is one.
+    pub map: Option<String>,
     /// What a shell keeps with the run, such as its learning curves; training does not look at it.
     pub notes: BTreeMap<String, String>,
 }
@@ -160,6 +163,7 @@ impl Run {
             ("updates", trainer.learner.updates().to_string()),
         ];
         entries.extend(origin.hoa.iter().map(|hoa| ("hoa", hoa.clone())));
+        entries.extend(origin.map.iter().map(|map| ("map", map.clone())));
         let notes = origin.notes.iter().map(|(key, text)| (format!("{NOTE}{key}"), text.clone()));
         entries.into_iter().map(|(key, text)| (key.to_owned(), text)).chain(notes).collect()
     }
@@ -236,6 +240,7 @@ impl Checkpoint {
             preset: needed("preset")?,
             settings: needed("settings")?,
             hoa: text("hoa"),
+            map: text("map"),
             notes: record
                 .metadata
                 .iter()
