@@ -2,11 +2,12 @@
 // Assembles the page into web/dist: sources, WebAssembly, libraries, fonts, assets and the offline worker with its list of files.
 // usage: node build.mjs [--mock] [--out DIR]     --mock: the scripted stand-in instead of the WebAssembly, for tests of the views
 
+import { execFile } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { cp, mkdir, readFile, readdir, rm, stat, writeFile } from 'node:fs/promises';
+import { cp, mkdir, readFile, readdir, rename, rm, stat, writeFile } from 'node:fs/promises';
 import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { parseArgs } from 'node:util';
+import { parseArgs, promisify } from 'node:util';
 import { gzipSync } from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -18,6 +19,26 @@ const modules = join(here, 'node_modules');
 const exists = (path) => stat(path).then(() => true, () => false);
 /** @param {string} from @param {string} to */
 const copy = (from, to) => cp(join(here, from), join(out, to), { recursive: true });
+
+/** What the module may use: what every browser since 2021 has. */
+const FEATURES = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
+
+/**
+ * The module after binaryen's optimiser, kept beside it under a name that changes with its content.
+ * @param {string} file
+ */
+async function optimised(file) {
+  const name = createHash('sha256').update(await readFile(file)).digest('hex').slice(0, 16);
+  const made = join(dirname(file), `optimised-${name}.wasm`);
+  if (!(await exists(made))) {
+    for (const old of await readdir(dirname(file))) if (old.startsWith('optimised-')) await rm(join(dirname(file), old));
+    console.log('page: optimising the WebAssembly module (half a minute)');
+    const flags = FEATURES.map((feature) => `--enable-${feature}`);
+    await promisify(execFile)(process.execPath, [join(modules, 'binaryen/bin/wasm-opt'), '-O3', ...flags, file, '-o', `${made}.part`]);
+    await rename(`${made}.part`, made);
+  }
+  return made;
+}
 
 await rm(out, { recursive: true, force: true });
 await mkdir(join(out, 'vendor'), { recursive: true });
@@ -32,7 +53,7 @@ if (values.mock) {
 } else {
   if (!(await exists(join(here, 'pkg/ltl_rover_bg.wasm')))) throw new Error('web/pkg is missing: run `make wasm` first');
   await copy('pkg/ltl_rover.js', 'pkg/ltl_rover.js');
-  await copy('pkg/ltl_rover_bg.wasm', 'pkg/ltl_rover_bg.wasm');
+  await cp(await optimised(join(here, 'pkg/ltl_rover_bg.wasm')), join(out, 'pkg/ltl_rover_bg.wasm'));
 }
 
 // uPlot is shipped as a script; one line makes a module of it.

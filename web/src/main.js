@@ -4,11 +4,12 @@
 import { Client, Refused } from './client.js';
 import { byId, count, element, forgetColours, offer, setText } from './dom.js';
 import { Player, Recorder, happenings } from './player.js';
-import { Frame } from './protocol.js';
+import { END, Frame } from './protocol.js';
 import { initialState, readHash, writeHash } from './state.js';
 import { Automaton } from './views/automaton.js';
 import { Controls } from './views/controls.js';
 import { Curves } from './views/curves.js';
+import { Driver } from './views/drive.js';
 import { Evaluation, Modules, Settings } from './views/details.js';
 import { Frontier } from './views/frontier.js';
 import { Reward } from './views/reward.js';
@@ -86,11 +87,13 @@ class App {
     this.spec = this.makeSpec();
     this.controls = this.makeControls();
     this.automaton = new Automaton($.any('automaton'), $.any('automaton-now'), loadViz);
-    this.frontier = new Frontier($.any('frontier'), $.any('unvisited'));
+    this.frontier = new Frontier($.any('frontier'), $.any('unvisited'), $.any('jumps'));
     this.reward = new Reward({
       accepting: $.any('r-accepting'), reached: $.any('r-reached'), left: $.any('r-left'), sum: $.any('r-sum'),
       discount: $.any('r-discount'), words: $.any('r-words'), total: $.any('r-total'),
     });
+    this.driver = new Driver($.canvas('stage'));
+    this.driving = false;
     this.timeline = new Timeline($.canvas('timeline'), (row) => this.seek(row));
     this.modules = new Modules($.any('modules'));
     this.settings = new Settings($.any('settings'));
@@ -98,6 +101,7 @@ class App {
     /** @type {Curves | null} */
     this.curves = null;
     this.wire();
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) this.setPlaying(false);
     this.controls.show(this.state);
     this.hide();
     for (const { property, message } of problems) this.notice(`The link’s “${property}” ${message}.`, true);
@@ -207,7 +211,7 @@ class App {
       if (first) {
         await this.open({ ...initialState(), task: next.task, seed: next.seed });
         if (next.formula && error instanceof Refused) {
-          $.input('formula').value = next.formula;
+          await this.spec.putFormula(next.formula);
           this.refused(error, next);
         }
       }
@@ -230,7 +234,9 @@ class App {
     this.training = false;
     this.live = null;
     this.view = new Frame(description.layout);
+    const { playing } = this.player;
     this.player = new Player(description.environment.dt);
+    this.player.playing = playing;
     this.recorder = new Recorder();
     this.list = [];
     this.episodeIndex = 0;
@@ -247,10 +253,11 @@ class App {
     this.timeline.show(description);
     this.settings.show(description.settings);
     this.evaluation.clear();
-    this.automaton.show(description.automaton).catch((error) => $.any('automaton').replaceChildren(element('p', { className: 'note' }, `The automaton could not be drawn: ${error}`)));
+    this.automaton.show(description.automaton).then(() => this.refresh()).catch((error) => $.any('automaton').replaceChildren(element('p', { className: 'note' }, `The automaton could not be drawn: ${error}`)));
     setText($.any('stage-title'), description.task.title);
     this.writeHash();
     this.nextEpisode();
+    this.watch(this.state.watch);
   }
 
   /** @param {import('./protocol.js').Command} command */
@@ -270,7 +277,7 @@ class App {
     this.live ??= new Frame(this.description.layout);
     this.live.at(data, 0);
     this.liveIsNew = true;
-    this.recorder.add(this.live);
+    if (this.state.watch === 'training') this.recorder.add(this.live);
   }
 
   // --- playback ---------------------------------------------------------------------------------------------------------
@@ -304,8 +311,52 @@ class App {
     if (!this.description || !this.view) return;
     if (this.live && this.liveIsNew) this.controls.update(this.live);
     if (this.state.watch === 'policy') this.paintEpisode(now, seconds);
+    else if (this.state.watch === 'drive') this.driveOn(seconds);
     else if (this.liveIsNew && this.live) this.paintLive(now, this.live);
     this.liveIsNew = false;
+  }
+
+  // --- driving ------------------------------------------------------------------------------------------------------------
+
+  async beginDrive() {
+    const answer = await this.ask({ kind: 'begin_drive', index: this.episodeIndex++ });
+    if (!answer || answer.generation !== this.generation || !this.view) return;
+    this.recorder = new Recorder();
+    this.stage?.forget();
+    this.driver.activate(true);
+    this.setPlaying(true);
+    this.driving = false;
+    this.stageNote('Push with the arrow keys, or press on the picture');
+    this.takeDriven(answer.data);
+  }
+
+  /** @param {number} seconds */
+  driveOn(seconds) {
+    const { player, driver, description, stage } = this;
+    if (!description || !stage || this.driving || !driver.active || !player.playing) return;
+    if (driver.tick(seconds, player.rowsPerSecond * Math.min(this.state.speed, 1))) this.driveStep(driver.control(description, stage), null);
+  }
+
+  /** @param {number[]} control @param {number | null} jump */
+  async driveStep(control, jump) {
+    this.driving = true;
+    const answer = await this.ask({ kind: 'drive', control, jump });
+    this.driving = false;
+    if (answer && answer.generation === this.generation && this.state.watch === 'drive') this.takeDriven(answer.data);
+  }
+
+  /** @param {Float32Array} data */
+  takeDriven(data) {
+    const frame = /** @type {Frame} */ (this.view).at(data, 0);
+    this.recorder.add(frame);
+    this.paintLive(performance.now(), frame);
+    this.frontier.jumps(frame, (target) => this.driveStep(this.description?.environment.action.map(() => 0) ?? [], target));
+    const end = frame.number('end');
+    if (frame.number('episode_step') > 0) this.stageNote('');
+    if (end === END.running) return;
+    this.driver.activate(false);
+    const rounds = count(frame.number('rounds'));
+    this.stageNote(`${end === END.terminated ? 'The run has ended' : 'Time is up'} after ${count(frame.number('episode_step'))} steps, ${rounds} rounds. Space starts again.`);
   }
 
   /** @param {number} now @param {number} seconds */
@@ -345,6 +396,12 @@ class App {
     setText($.any('clock'), `step ${live.number('episode_step')}`);
   }
 
+  /** Shows the present moment again, on views that were made anew. */
+  refresh() {
+    this.shownRow = -1;
+    this.liveIsNew = this.live !== null;
+  }
+
   /** @param {Frame} frame */
   showFrame(frame) {
     this.automaton.update(frame);
@@ -374,6 +431,10 @@ class App {
   }
 
   togglePlay() {
+    if (this.state.watch === 'drive' && !this.driver.active) {
+      this.beginDrive();
+      return;
+    }
     if (this.player.finished) this.player.position = 0;
     this.setPlaying(!this.player.playing);
   }
@@ -391,10 +452,15 @@ class App {
   watch(watch) {
     this.change({ watch });
     this.stageNote('');
-    for (const id of ['play', 'previous', 'following']) $.button(id).disabled = watch !== 'policy';
+    for (const id of ['previous', 'following']) $.button(id).disabled = watch !== 'policy';
     $.input('scrub').disabled = watch !== 'policy';
+    this.driver.activate(false);
+    this.frontier.jumps(null, () => {});
+    this.recorder = new Recorder();
     if (watch === 'policy' && this.player.episode) this.takeEpisode(this.player.episode);
+    else if (watch === 'drive') this.beginDrive();
     else this.liveIsNew = this.live !== null;
+    $.button('play').disabled = watch === 'training';
   }
 
   // --- training ---------------------------------------------------------------------------------------------------------
@@ -463,7 +529,6 @@ class App {
     const { state, problems } = readHash(location.hash);
     for (const { property, message } of problems) this.notice(`The link’s “${property}” ${message}.`, true);
     this.open(state);
-    this.watch(state.watch);
   }
 
   hide() {
@@ -499,7 +564,7 @@ class App {
     const next = order[(order.indexOf(root.dataset.theme ?? 'system') + 1) % order.length];
     if (next === 'system') delete root.dataset.theme;
     else root.dataset.theme = next;
-    $.button('theme').setAttribute('aria-label', `Colours: ${next === 'system' ? 'as the system' : next}`);
+    $.button('theme').setAttribute('aria-label', `Theme: ${next === 'system' ? 'as the system' : next}`);
     this.retheme();
   }
 
@@ -515,6 +580,7 @@ class App {
     const target = /** @type {HTMLElement} */ (event.target);
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     if (target.matches('input:not([type=radio], [type=range]), select, textarea')) return;
+    if (this.driver.press(event.key)) return event.preventDefault();
     if (event.key === ' ' && target.matches('button, summary, label')) return;
     if (event.key.startsWith('Arrow') && target.matches('input')) return;
     /** @type {Record<string, () => void>} */
@@ -531,6 +597,7 @@ class App {
       n: () => this.controls.places.newSeed.click(),
       1: () => this.watch('policy'),
       2: () => this.watch('training'),
+      3: () => this.watch('drive'),
       '?': () => $.button('help-open').click(),
     };
     const act = keys[event.key];

@@ -175,17 +175,10 @@ function obey(command) {
   switch (command.kind) {
     case 'open': {
       const { task, formula, hoa, seed, preset, overrides } = command.request;
-      const result = replace(Session.open({ task, formula, hoa, preset, overrides, seed: BigInt(seed) }));
-      sendFrame();
-      sendTelemetry();
-      return result;
+      return replace(Session.open({ task, formula, hoa, preset, overrides, seed: BigInt(seed) }));
     }
-    case 'restore': {
-      const result = replace(Session.restore(command.bytes));
-      sendFrame();
-      sendTelemetry();
-      return result;
-    }
+    case 'restore':
+      return replace(Session.restore(command.bytes));
     case 'train': {
       present();
       stop();
@@ -240,6 +233,11 @@ scope.addEventListener('message', async (event) => {
   try {
     const value = await obey(command);
     tell({ kind: 'done', id, value });
+    // Of another session the page first hears what it is, then how it stands.
+    if (command.kind === 'open' || command.kind === 'restore') {
+      sendFrame();
+      sendTelemetry();
+    }
   } catch (error) {
     // A trap leaves the module in an unknown state: the page starts another worker.
     if (error instanceof WebAssembly.RuntimeError) fail(error);

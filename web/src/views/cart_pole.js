@@ -127,4 +127,9 @@ export class CartPole {
     context.lineTo(end - side * 5, y + 4);
     context.stroke();
   }
+
+  /** @param {number} x @param {number} y @param {number} width @param {number} height @returns {[number, number]} */
+  pointer(x, y, width, height) {
+    return projection(this.scene.ground, width, height).back(x, y);
+  }
 }

@@ -11,9 +11,11 @@ export class Frontier {
   /**
    * @param {HTMLElement} sets    list for T
    * @param {HTMLElement} states  list for T_Φ
+   * @param {HTMLElement} jumps   where ε-jumps are offered
    */
-  constructor(sets, states) {
-    this.roots = { sets, states };
+  constructor(sets, states, jumps) {
+    this.roots = { sets, states, jumps };
+    this.offered = '';
     /** @type {HTMLElement[]} */
     this.sets = [];
     /** @type {{ id: number, chip: HTMLElement }[]} */
@@ -35,6 +37,23 @@ export class Frontier {
   update(frame) {
     this.sets.forEach((chip, k) => this.put(chip, frame.bit('frontier', k), frame.bit('fresh', k)));
     this.states.forEach(({ id, chip }) => this.put(chip, frame.bit('unvisited', id), false));
+  }
+
+  /**
+   * Offers the ε-jumps of this moment to the user who drives; none without a frame.
+   * @param {Frame | null} frame
+   * @param {(target: number) => void} jump
+   */
+  jumps(frame, jump) {
+    const targets = frame ? this.states.map((s) => s.id).filter((id) => frame.bit('jumps', id)) : [];
+    const text = targets.join();
+    if (text === this.offered) return;
+    this.offered = text;
+    this.roots.jumps.replaceChildren(...targets.map((id) => {
+      const button = element('button', { type: 'button' }, `Jump to ${stateName(id)}`);
+      button.addEventListener('click', () => jump(id));
+      return button;
+    }));
   }
 
   /** @param {HTMLElement} chip @param {boolean} waits @param {boolean} fresh */

@@ -145,7 +145,7 @@ export class Spec {
   /** @param {string} text */
   putFormula(text) {
     this.places.formula.value = text;
-    this.checkFormula();
+    return this.checkFormula();
   }
 
   async checkFormula() {

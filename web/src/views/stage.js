@@ -77,6 +77,11 @@ export class Stage {
     this.watcher.disconnect();
   }
 
+  /** Forgets the trail, for another run. */
+  forget() {
+    this.recent = [];
+  }
+
   /** Takes over the colours of the present theme. */
   retheme() {
     this.colours = themeColours();

@@ -1,0 +1,67 @@
+// @ts-check
+// A page under test: the built page served on this machine, Chromium around it, and everything that went wrong in it.
+
+import { existsSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+import { server } from '../../serve.mjs';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../../dist');
+const EXECUTABLES = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+const FLAGS = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+
+/** The sizes at which the page is tested. */
+export const SIZES = /** @type {const} */ ({ wide: { width: 1280, height: 800 }, phone: { width: 390, height: 844 } });
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/** The page's server and a browser. Close both at the end. */
+export async function start() {
+  if (!existsSync(join(root, 'index.html'))) throw new Error('web/dist is missing: run `make page` first');
+  const made = server(root);
+  await new Promise((resolve) => made.listen(0, '127.0.0.1', () => resolve(undefined)));
+  const { port } = /** @type {import('node:net').AddressInfo} */ (made.address());
+  const executablePath = EXECUTABLES.find((path) => path && existsSync(path));
+  const browser = await chromium.launch({ executablePath, args: FLAGS });
+  return {
+    browser,
+    url: `http://localhost:${port}/`,
+    async close() {
+      await browser.close();
+      await new Promise((resolve) => made.close(resolve));
+    },
+  };
+}
+
+/**
+ * Opens the page in a fresh context. `problems` collects errors of the console, the page and the network.
+ * @param {Awaited<ReturnType<typeof start>>} site
+ * @param {{ hash?: string, size?: keyof typeof SIZES, colours?: 'light' | 'dark', motion?: 'reduce' | 'no-preference' }} [options]
+ */
+export async function visit(site, { hash = '', size = 'wide', colours = 'light', motion = 'no-preference' } = {}) {
+  const context = await site.browser.newContext({ viewport: SIZES[size], colorScheme: colours, reducedMotion: motion, hasTouch: size === 'phone', acceptDownloads: true });
+  const page = await context.newPage();
+  page.setDefaultTimeout(60_000);
+  /** @type {string[]} */
+  const problems = [];
+  page.on('console', (message) => {
+    if (message.type() === 'error' || message.type() === 'warning') problems.push(message.text());
+  });
+  page.on('pageerror', (error) => problems.push(String(error)));
+  page.on('request', (request) => {
+    if (!/^(http:\/\/localhost:|blob:|data:)/.test(request.url())) problems.push(`a request left this machine: ${request.url()}`);
+  });
+  await page.goto(site.url + hash);
+  await page.waitForSelector('#automaton svg .node.current');
+  return { page, context, problems };
+}
+
+/** The number shown in element `id`. @param {Page} page @param {string} id */
+export async function number(page, id) {
+  const text = await page.textContent(`#${id}`);
+  return Number((text ?? '').replaceAll(',', ''));
+}
+
+/** The first number of a text, digit groups read as one. @param {string | null} text */
+export const firstNumber = (text) => Number(/[\d,]+/.exec(text ?? '')?.[0].replaceAll(',', ''));

@@ -1,0 +1,296 @@
+// @ts-check
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { SIZES, firstNumber, number, start, visit } from './browser.js';
+
+const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** @type {Awaited<ReturnType<typeof start>>} */
+let site;
+before(async () => {
+  site = await start();
+});
+after(() => site?.close());
+
+/** What the canvas `id` shows, as a text that changes with it. @param {import('playwright-core').Page} page @param {string} id */
+const picture = (page, id) => page.$eval(`#${id}`, (canvas) => /** @type {HTMLCanvasElement} */ (canvas).toDataURL());
+
+for (const size of /** @type {const} */ (['wide', 'phone'])) {
+  for (const colours of /** @type {const} */ (['light', 'dark'])) {
+    test(`the page stands at ${SIZES[size].width} px in ${colours}: nothing overflows, nothing fails, axe finds nothing`, async () => {
+      const { page, context, problems } = await visit(site, { size, colours });
+      await page.click('#hoa-panel summary');
+      await page.waitForSelector('#curves canvas');
+      const width = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= SIZES[size].width, `the page is ${width} px wide`);
+      await page.evaluate(axe);
+      const found = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run());
+      assert.deepEqual(found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`), []);
+      await page.click('#help-open');
+      const inHelp = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run('#help'));
+      assert.deepEqual(inHelp.violations.map((/** @type {any} */ v) => v.id), []);
+      assert.deepEqual(problems, []);
+      await context.close();
+    });
+  }
+}
+
+test('something moves within a second of opening, with no click', async () => {
+  const context = await site.browser.newContext({ viewport: SIZES.wide });
+  const page = await context.newPage();
+  // Once to fill the browser's cache of compiled code, as on any visit but the first.
+  await page.goto(site.url);
+  await page.waitForSelector('#automaton svg');
+  const began = Date.now();
+  await page.reload({ waitUntil: 'commit' });
+  await page.waitForFunction(() => (document.getElementById('clock')?.textContent ?? '–') !== '–');
+  const first = await page.textContent('#clock');
+  await page.waitForFunction((before) => document.getElementById('clock')?.textContent !== before, first);
+  const took = Date.now() - began;
+  console.log(`# first movement ${took} ms after opening`);
+  assert.ok(took < 3000, `${took} ms; a second is the goal, three the limit on a busy machine`);
+  await context.close();
+});
+
+test('a wrong formula is shown at its place while typing, and a right one with all its parentheses', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.fill('#formula', 'G F r1 & & r2');
+  await page.waitForSelector('#formula[aria-invalid=true]');
+  assert.match((await page.textContent('#formula-said')) ?? '', /^column 10: /);
+  const mark = await page.$eval('#formula-mirror mark', (m) => m.previousSibling?.textContent?.length);
+  assert.equal(mark, 9);
+  const [place, field] = await Promise.all([page.locator('#formula-mirror mark').boundingBox(), page.locator('#formula').boundingBox()]);
+  assert.ok(place && field && place.x > field.x && place.x < field.x + 200 && place.y >= field.y && place.y < field.y + field.height, 'the mark lies under the text of the field');
+  assert.equal(await page.isDisabled('#formula-apply'), true);
+  await page.fill('#formula', '□ ◇r1 → r2 U x');
+  await page.waitForSelector('#formula:not([aria-invalid])');
+  assert.match((await page.textContent('#formula-said')) ?? '', /^read as \(□\(◇r1\)\) → \(r2 U x\)$/);
+  assert.match((await page.textContent('#formula-words')) ?? '', /no proposition `x`/);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('an automaton file is read, refused at its place, dropped and used', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.click('#hoa-panel summary');
+  const own = await page.inputValue('#hoa');
+  assert.match(own, /^HOA: v1/);
+  await page.fill('#hoa', own.replace('--BODY--', '--BUDDY--'));
+  await page.waitForSelector('#hoa[aria-invalid=true]');
+  assert.match((await page.textContent('#hoa-said')) ?? '', /^line \d+, column \d+: /);
+  const dropped = own.replace(/\n--BODY--/, '\n/* the same, dropped */\n--BODY--');
+  const file = await page.evaluateHandle((text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], 'dropped.hoa'));
+    return data;
+  }, dropped);
+  await page.dispatchEvent('#hoa-panel', 'drop', { dataTransfer: file });
+  await page.waitForSelector('#hoa:not([aria-invalid])');
+  assert.match((await page.textContent('#hoa-said')) ?? '', /\d+ states, 2 accepting sets, propositions r1, r2/);
+  await page.click('#hoa-apply');
+  await page.waitForFunction(() => location.hash.includes('hoa='));
+  assert.match(await page.inputValue('#hoa'), /the same, dropped/);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('φ_B1 is learned in the page: at least one round in greedy episodes, within the steps that are enough natively', async () => {
+  const { page, context, problems } = await visit(site, { hash: '#seed=1' });
+  const began = Date.now();
+  await page.click('#train');
+  await page.waitForFunction(() => document.getElementById('notices')?.textContent?.includes('Press Train to go on'), undefined, { timeout: 600_000 });
+  const notice = await page.textContent('#notices');
+  const seconds = (Date.now() - began) / 1000;
+  const steps = firstNumber(notice);
+  console.log(`# learned after ${steps} steps in ${seconds.toFixed(1)} s in the page`);
+  assert.match(notice ?? '', /Learned/);
+  assert.ok(steps <= 60_000, `${steps} steps`);
+  assert.equal(await page.textContent('#train'), 'Train');
+  await page.click('#evaluate');
+  await page.waitForFunction(() => document.querySelector('#evaluation .facts')?.textContent?.includes('200 of 200'), undefined, { timeout: 120_000 });
+  const verdict = await page.textContent('#evaluation .verdict');
+  console.log(`# ${verdict}`);
+  assert.ok(firstNumber(verdict) >= 195, `${verdict}`);
+  // The replay that is running now is of the learned policy: it closes a round.
+  await page.click('label:has(input[value=policy])');
+  await page.waitForFunction(() => {
+    const words = document.getElementById('r-words')?.textContent ?? '';
+    return words.includes('a round is closed');
+  }, undefined, { timeout: 60_000, polling: 'raf' });
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('the page keeps painting while it trains', async () => {
+  const { page, context } = await visit(site, { hash: '#preset=paper' });
+  await page.click('#train');
+  await page.waitForTimeout(1500);
+  const rate = await page.evaluate(() => new Promise((resolve) => {
+    let frames = 0;
+    const began = performance.now();
+    const count = () => {
+      frames++;
+      if (performance.now() - began > 3000) resolve((frames * 1000) / (performance.now() - began));
+      else requestAnimationFrame(count);
+    };
+    requestAnimationFrame(count);
+  }));
+  const steps = await number(page, 'rate');
+  console.log(`# ${Number(rate).toFixed(0)} frames a second while training at ${steps} steps a second`);
+  assert.ok(Number(rate) > 10, 'the page is not blocked by its worker');
+  await context.close();
+});
+
+test('step, episode, pause, reset and seeds', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.click('#step');
+  await page.click('#step');
+  await page.waitForFunction(() => document.getElementById('n-steps')?.textContent === '2');
+  assert.ok(await page.isChecked('input[value=training]'), 'a single step shows training');
+  await page.click('#episode');
+  await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent) > 2);
+  const after = await number(page, 'n-steps');
+  await page.keyboard.press('r');
+  await page.waitForFunction(() => document.getElementById('n-steps')?.textContent === '0');
+  await page.click('#step');
+  await page.click('#step');
+  await page.click('#episode');
+  await page.waitForFunction((wanted) => document.getElementById('n-steps')?.textContent === String(wanted), after);
+  await page.fill('#seed', '42');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => location.hash.includes('seed=42'));
+  await page.click('#new-seed');
+  await page.waitForFunction(() => !location.hash.includes('seed=42'));
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('a checkpoint is saved, loaded and goes on where it was', async () => {
+  const { page, context, problems } = await visit(site, { hash: '#seed=9' });
+  await page.click('#train');
+  await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent?.replaceAll(',', '')) > 300);
+  await page.click('#train');
+  await page.waitForFunction(() => document.getElementById('rate')?.textContent === '0');
+  await page.waitForTimeout(300);
+  const [steps, episodes] = [await number(page, 'n-steps'), await number(page, 'n-episodes')];
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+  assert.equal(download.suggestedFilename(), 'ball_pass_b1-seed9.safetensors');
+  const path = await download.path();
+  await page.selectOption('#task', 'cart_pole_c1');
+  await page.waitForFunction(() => location.hash.includes('cart_pole_c1'));
+  await page.setInputFiles('#load', path);
+  await page.waitForFunction(() => document.getElementById('notices')?.textContent?.includes('is open'));
+  assert.deepEqual([await number(page, 'n-steps'), await number(page, 'n-episodes')], [steps, episodes]);
+  assert.equal(await page.inputValue('#seed'), '9');
+  assert.equal(await page.inputValue('#task'), 'ball_pass_b1');
+  await page.setInputFiles('#load', { name: 'wrong.safetensors', mimeType: 'application/octet-stream', buffer: Buffer.from('nothing of the kind') });
+  await page.waitForSelector('.notice.problem');
+  assert.equal(await number(page, 'n-steps'), steps, 'a wrong file changes nothing');
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('a link restores the state; a hostile one is told and does no harm', async () => {
+  const { page, context, problems } = await visit(site, { hash: '#task=cart_pole_c1&seed=5&watch=training&speed=4&preset=paper' });
+  assert.equal(await page.inputValue('#task'), 'cart_pole_c1');
+  assert.equal(await page.inputValue('#seed'), '5');
+  assert.equal(await page.inputValue('#speed'), '4');
+  assert.equal(await page.inputValue('#preset'), 'paper');
+  assert.ok(await page.isChecked('input[value=training]'));
+  await page.goto(`${site.url}#task=none_such&seed=-3&speed=7&what=%3Cscript%3E&formula=G+F+(`);
+  await page.reload();
+  await page.waitForSelector('#automaton svg .node.current');
+  const notices = await page.textContent('#notices');
+  for (const word of ['task', 'seed', 'speed', 'what']) assert.match(notices ?? '', new RegExp(`“${word}”`), notices ?? '');
+  assert.equal(await page.inputValue('#task'), 'ball_pass_b1');
+  await page.goto(`${site.url}#formula=G+F+(`);
+  await page.reload();
+  await page.waitForSelector('#formula[aria-invalid=true]');
+  assert.equal(await page.inputValue('#formula'), 'G F (');
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('playback: pause, scrub, events, keys', async () => {
+  const { page, context, problems } = await visit(site, { size: 'phone' });
+  await page.keyboard.press(' ');
+  const paused = await page.textContent('#clock');
+  await page.waitForTimeout(400);
+  assert.equal(await page.textContent('#clock'), paused);
+  await page.$eval('#scrub', (input) => {
+    /** @type {HTMLInputElement} */ (input).value = '3';
+    input.dispatchEvent(new Event('input'));
+  });
+  await page.waitForFunction(() => document.getElementById('clock')?.textContent?.startsWith('3/'));
+  await page.locator('#stage-panel').focus();
+  await page.keyboard.press('ArrowRight');
+  await page.waitForFunction(() => document.getElementById('clock')?.textContent?.startsWith('4/'));
+  await page.keyboard.press('.');
+  await page.waitForFunction(() => !document.getElementById('clock')?.textContent?.startsWith('4/'));
+  const still = await picture(page, 'stage');
+  await page.keyboard.press(' ');
+  await page.waitForFunction((before) => /** @type {HTMLCanvasElement} */ (document.getElementById('stage')).toDataURL() !== before, still);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('driving by hand: the arrow keys push, the automaton follows, the run ends and begins again', async () => {
+  const { page, context, problems } = await visit(site, { hash: '#speed=1' });
+  await page.click('label:has(input[value=drive])');
+  await page.locator('#stage-panel').focus();
+  await page.keyboard.down('ArrowRight');
+  await page.waitForFunction(() => /^step [1-9]/.test(document.getElementById('clock')?.textContent ?? ''));
+  await page.waitForFunction(() => document.getElementById('stage-note')?.textContent?.includes('The run has ended'));
+  await page.keyboard.up('ArrowRight');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => /^step [0-9]$/.test(document.getElementById('clock')?.textContent ?? ''));
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('offline after the first visit: the page, its libraries and training', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+  await context.setOffline(true);
+  await page.reload();
+  await page.waitForSelector('#automaton svg .node.current');
+  await page.waitForSelector('#curves canvas');
+  await page.click('#train');
+  await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent?.replaceAll(',', '')) > 50);
+  assert.deepEqual(problems.filter((p) => !p.includes('ERR_INTERNET_DISCONNECTED')), []);
+  await context.close();
+});
+
+test('exports: curves as CSV, the automaton as SVG and HOA, the description as JSON, the picture as PNG', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.click('#episode');
+  await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent) > 1);
+  await page.click('#hoa-panel summary');
+  /** @type {[string, RegExp][]} */
+  const files = [['export-csv', /^episode,average,total,rounds,success,critic\n1,/], ['export-svg', /^<svg/], ['export-json', /^\{/], ['export-png', /PNG/], ['hoa-save', /^HOA: v1/]];
+  for (const [id, wanted] of files) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click(`#${id}`)]);
+    assert.match(await readFile(await download.path(), 'latin1'), wanted, id);
+  }
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('reduced motion, and a page that may not be framed by what it loads: the policy of its content is strict', async () => {
+  const { page, context, problems } = await visit(site, { motion: 'reduce' });
+  const policy = await page.getAttribute('meta[http-equiv=Content-Security-Policy]', 'content');
+  assert.match(policy ?? '', /default-src 'none'/);
+  assert.doesNotMatch(policy ?? '', /unsafe-inline|'unsafe-eval'|https?:/);
+  const blocked = await page.evaluate(() => {
+    const script = document.createElement('script');
+    script.textContent = 'globalThis.intruder = true';
+    document.body.append(script);
+    return /** @type {any} */ (globalThis).intruder === undefined;
+  });
+  assert.ok(blocked, 'inline scripts do not run');
+  assert.ok(problems.every((p) => p.includes('Content Security Policy')));
+  await context.close();
+});
