@@ -56,7 +56,7 @@ test-wasm: ## the WebAssembly module under Node
 	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary --test golden_trace
 
 .PHONY: test-web
-test-web: ## the page's modules: types and units
+test-web: wasm ## the page's modules: types and units
 	@cd web && npx tsc --noEmit
 	@cd web && node --test tests/unit/
 
