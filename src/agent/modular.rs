@@ -233,7 +233,7 @@ impl ModularDdpg {
         let batch = Batch { observations: &self.batch.inputs, actions: &self.batch.controls, targets: &self.batch.targets };
         let changed = &mut self.modules[module];
         changed.updates += 1;
-        if changed.updates % u64::from(self.settings.policy_delay) == 0 {
+        if changed.updates.is_multiple_of(u64::from(self.settings.policy_delay)) {
             let losses = changed.networks.update(batch, &optimiser);
             changed.actor_loss = losses.actor;
             return Update { module, losses };
@@ -347,7 +347,8 @@ impl Learner for ModularDdpg {
 
     fn update(&mut self) -> Option<Update> {
         let current = self.current.take()?;
-        let on = self.steps > self.settings.exploration.warm_up && self.steps % u64::from(self.settings.update_every) == 0;
+        let on =
+            self.steps > self.settings.exploration.warm_up && self.steps.is_multiple_of(u64::from(self.settings.update_every));
         let updates = if on { self.settings.updates_per_step } else { 0 };
         let mut last = None;
         for _ in 0..updates {

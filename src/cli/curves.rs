@@ -4,7 +4,11 @@ use super::failure::Failure;
 use super::plot::Metric;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::register_font;
 use std::path::Path;
+
+/// The font of plots, so that they look the same on machines without any: DejaVu Sans, see `assets/fonts/LICENSE-DejaVu.txt`.
+const FONT: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
 
 /// Okabe and Ito's palette, distinguishable with every kind of colour vision.
 const COLOURS: [RGBColor; 7] = [
@@ -76,6 +80,7 @@ fn running_mean(values: &[f64], window: usize) -> Vec<(f64, f64)> {
 /// # Errors
 /// Another ending, or a file that cannot be written.
 pub fn draw(out: &Path, metric: Metric, curves: &[Curve]) -> Result<(), Failure> {
+    register_font("sans-serif", FontStyle::Normal, FONT).map_err(|_| Failure::running("the font of plots is damaged"))?;
     let size = (960, 600);
     let ending = out.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {
@@ -127,5 +132,20 @@ mod tests {
         assert_eq!(points[50], (50.0, 45.0));
         assert_eq!(points[0], (0.0, 0.0));
         assert_eq!(points[1], (1.0, 0.5));
+    }
+
+    #[test]
+    fn both_kinds_of_picture_are_written_and_others_refused() {
+        let folder = std::env::temp_dir().join(format!("ltl-rover-curves-{}", std::process::id()));
+        let curve = Curve { name: "b1".to_owned(), points: vec![(0.0, 0.0), (1.0, 0.5), (2.0, 0.4)] };
+        let draw = |name: &str| draw(&folder.join(name), Metric::AverageReward, std::slice::from_ref(&curve));
+        draw("a.svg").unwrap();
+        draw("a.png").unwrap();
+        assert!(draw("a.gif").is_err());
+        let svg = std::fs::read_to_string(folder.join("a.svg")).unwrap();
+        assert!(svg.contains("average reward per step") && svg.contains("b1"));
+        let png = std::fs::read(folder.join("a.png")).unwrap();
+        assert!(png.starts_with(b"\x89PNG"));
+        std::fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -33,7 +33,7 @@ impl Bar {
 
     /// Environment steps so far.
     pub fn step(&self, step: u64) {
-        if step % STRIDE == 0 {
+        if step.is_multiple_of(STRIDE) {
             self.bar.set_position(step);
         }
     }

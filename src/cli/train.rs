@@ -116,7 +116,7 @@ impl Train {
                     print_json(&serde_json::json!({ "step": step, "evaluation": evaluation }));
                 }
             }
-            if step % self.log_every == 0 {
+            if step.is_multiple_of(self.log_every) {
                 logs.progress(metrics.row(), rate(&run), began.elapsed().as_secs_f64())?;
                 self.save(&out, &setup, &run)?;
             }

@@ -60,7 +60,7 @@ impl Run {
     pub fn due(&mut self) -> Option<u64> {
         let (step, every) = (self.trainer.step, self.trainer.settings.evaluate_every);
         // An ε-move leaves the number of steps as it was: it must not evaluate a second time.
-        let due = every > 0 && step % every == 0 && step > self.last_evaluated;
+        let due = every > 0 && step.is_multiple_of(every) && step > self.last_evaluated;
         due.then(|| {
             self.last_evaluated = step;
             self.next_seed()
