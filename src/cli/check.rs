@@ -259,7 +259,7 @@ fn read_file(file: &str) -> Result<(String, String), Failure> {
 }
 
 /// `4 states (1 sink), 2 accepting sets, deterministic, 9 edges`
-fn summary(s: &Statistics) -> String {
+pub(super) fn summary(s: &Statistics) -> String {
     let plural = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let mut parts = vec![match (s.sinks, s.unreachable) {
         (0, 0) => plural(s.states, "state"),

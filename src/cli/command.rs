@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::plot;
 use super::schema;
 use super::train;
+use super::translate;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -23,6 +24,8 @@ pub struct Cli {
 pub enum Command {
     /// Check automata in the HOA format, a formula, or both against one another.
     Check(check::Check),
+    /// Translate formulas to small automata, as HOA, DOT or JSON.
+    Translate(translate::Translate),
     /// Learn a task: train until it is solved or the budget is spent.
     Train(train::Train),
     /// Judge a trained policy: success rate with its interval, rounds, sinks.
@@ -44,6 +47,7 @@ pub fn main() -> ExitCode {
     };
     let done: Result<ExitCode, Failure> = match &cli.command {
         Command::Check(check) => check.run(),
+        Command::Translate(translate) => translate.run(),
         Command::Train(train) => train.run(),
         Command::Eval(eval) => eval.run(),
         Command::Plot(plot) => plot.run(),

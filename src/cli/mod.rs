@@ -14,6 +14,7 @@ mod plot;
 mod progress;
 pub mod schema;
 mod train;
+mod translate;
 
 pub use command::{Cli, main};
 pub use failure::Failure;

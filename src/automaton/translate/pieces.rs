@@ -47,6 +47,9 @@ fn track(u: &mut Unfolding<'_>, raw: Bdd, sets: usize) -> Result<Graph, Stop> {
 pub(super) fn recurrence(u: &mut Unfolding<'_>, chi: NodeId) -> Result<Graph, Stop> {
     let goal = u.store.finally(chi);
     let start = u.unfold(goal)?;
+    let again = u.store.globally(goal);
+    let again = u.raw(again)?;
+    let again = u.unfold_raw(again)?;
     let mut numbering = Numbering::new();
     numbering.number(start, &mut u.work)?;
     let mut graph = Graph { states: Vec::new(), initial: 0, sets: 1 };
@@ -69,7 +72,8 @@ pub(super) fn recurrence(u: &mut Unfolding<'_>, chi: NodeId) -> Result<Graph, St
             }
         }
         let edges = merge_edges(&mut u.bdd, edges)?;
-        graph.states.push(State { edges, left: vec![state], ..State::default() });
+        let left = if state == start { vec![again] } else { vec![again, state] };
+        graph.states.push(State { edges, left, ..State::default() });
     }
     Ok(graph)
 }
