@@ -50,3 +50,5 @@ pub mod Ball2023 {}
 pub mod Dabney2021 {}
 /// R. S. Sutton, A. G. Barto: *Reinforcement Learning: An Introduction*, second edition, MIT Press, 2018.
 pub mod SuttonBarto2018 {}
+/// S. Haddad, B. Monmege: *Interval Iteration Algorithm for MDPs and IMDPs*, Theoretical Computer Science 735, 2018.
+pub mod HaddadMonmege2018 {}

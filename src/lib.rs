@@ -16,6 +16,7 @@ pub mod bib;
 pub mod cli;
 pub mod env;
 pub mod eval;
+pub mod finite;
 pub mod labels;
 pub mod ltl;
 pub mod nn;
