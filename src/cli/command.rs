@@ -1,6 +1,7 @@
 //! The commands, and the way from the program's arguments to its exit code.
 
 use super::check;
+use super::classify;
 use super::eval;
 use super::failure::Failure;
 use super::plot;
@@ -24,6 +25,8 @@ pub struct Cli {
 pub enum Command {
     /// Check automata in the HOA format, a formula, or both against one another.
     Check(check::Check),
+    /// Tell what kind of property a formula is, and what it says in English.
+    Classify(classify::Classify),
     /// Translate formulas to small automata, as HOA, DOT or JSON.
     Translate(translate::Translate),
     /// Learn a task: train until it is solved or the budget is spent.
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
     };
     let done: Result<ExitCode, Failure> = match &cli.command {
         Command::Check(check) => check.run(),
+        Command::Classify(classify) => classify.run(),
         Command::Translate(translate) => translate.run(),
         Command::Train(train) => train.run(),
         Command::Eval(eval) => eval.run(),

@@ -4,6 +4,7 @@
 //! Results go to standard output (`--json`: one JSON object per line), progress and errors to standard error.
 
 mod check;
+mod classify;
 mod command;
 mod curves;
 mod eval;

@@ -11,6 +11,7 @@ pub mod implication;
 mod lasso;
 mod lexer;
 pub mod normal_form;
+mod paraphrase;
 pub mod parse;
 mod print;
 pub mod semantics;

@@ -26,5 +26,5 @@ mod translator;
 mod unfold;
 mod work;
 
-pub use options::{Acceptance, Budget, TranslateError, TranslateErrorKind, TranslateOptions};
+pub use options::{Acceptance, Budget, Preference, TranslateError, TranslateErrorKind, TranslateOptions};
 pub use translator::{translate, translate_unless};

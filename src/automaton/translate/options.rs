@@ -13,6 +13,16 @@ pub enum Acceptance {
     State,
 }
 
+/// Which of several automata for a formula is best.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub enum Preference {
+    /// The one with the fewest states.
+    #[default]
+    Smallest,
+    /// One without ε-jumps, if any is found, even if it has more states.
+    Deterministic,
+}
+
 /// How much work a translation may cost. Translating LTL is doubly exponential in the worst case, so there is always a limit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Budget {
@@ -42,6 +52,8 @@ pub struct TranslateOptions {
     /// The alphabet, in order; propositions of the formula that are missing are added behind. Empty: those of the formula in order of
     /// occurrence.
     pub propositions: Vec<String>,
+    /// Which of several automata is best.
+    pub prefer: Preference,
     /// How much work it may cost.
     pub budget: Budget,
 }

@@ -1,12 +1,13 @@
 //! Several constructions for one formula, of which the smallest result is kept.
 //!
-//! Smallest: fewest states, then fewest jumps, then fewest accepting sets, then fewest edges. In case of a tie the earlier attempt wins, so the
+//! Smallest: fewest states, then fewest jumps, then fewest accepting sets, then fewest edges; on request, any without jumps before any with. In case of a tie the earlier attempt wins, so the
 //! result does not depend on anything but the formula.
 
 use super::asymmetric::Layout;
 use super::breakpoint::{Renewal, breakpoint};
 use super::graph::Graph;
 use super::limit::{Guess, limit_deterministic};
+use super::options::Preference;
 use super::pieces::{co_safety, product, recurrence, safety};
 use super::reduce::reduced;
 use super::target::{Together, recurring, trivial};
@@ -16,8 +17,9 @@ use crate::bdd::Bdd;
 use crate::ltl::{Node, NodeId};
 
 /// What is compared.
-fn size(graph: &Graph) -> (usize, usize, usize, usize) {
-    (graph.states.len(), graph.jumps(), graph.sets, graph.edges())
+fn size(graph: &Graph, prefer: Preference) -> (bool, usize, usize, usize, usize) {
+    let guesses = prefer == Preference::Deterministic && graph.jumps() > 0;
+    (guesses, graph.states.len(), graph.jumps(), graph.sets, graph.edges())
 }
 
 /// The best attempt so far, and why others failed.
@@ -36,7 +38,7 @@ impl Best {
                 self.stop.get_or_insert(stop);
             }
             Ok(graph) => {
-                if self.graph.as_ref().is_none_or(|best| size(&graph) < size(best)) {
+                if self.graph.as_ref().is_none_or(|best| size(&graph, u.prefer) < size(best, u.prefer)) {
                     self.graph = Some(graph);
                 }
             }

@@ -65,6 +65,7 @@ fn prepared<'a>(
     let mut u = Unfolding::new(Store::new(names), Work::new(options.budget, cancelled));
     u.letters = exclusive::letters(&mut u.bdd, &groups).map_err(|stop| explained(stop.into(), options))?;
     u.exclusive = groups;
+    u.prefer = options.prefer;
     Ok((alphabet, u))
 }
 

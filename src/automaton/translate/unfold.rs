@@ -9,6 +9,7 @@
 //! af: definition 2.3 of [Esparza, Křetínský & Sickert](crate::bib::Esparza2020); unfolding: definition 6 of
 //! [Sickert et al.](crate::bib::Sickert2016).
 
+use super::options::Preference;
 use super::work::{Stop, Work};
 use crate::bdd::{Bdd, Manager, Memo, Substitution, Variable};
 use crate::ltl::simplify::Simplifier;
@@ -27,6 +28,8 @@ pub(super) struct Unfolding<'a> {
     pub work: Work<'a>,
     /// The letters that can occur.
     pub letters: Bdd,
+    /// Which of several automata is best.
+    pub prefer: Preference,
     /// Groups of propositions of which at most one holds.
     pub exclusive: Vec<Vec<Variable>>,
     /// How many propositions there are; variable i < `propositions` is proposition i, the others are nx(·).
@@ -53,6 +56,7 @@ impl<'a> Unfolding<'a> {
             bdd,
             work,
             letters: Bdd::TRUE,
+            prefer: Preference::default(),
             exclusive: Vec::new(),
             propositions,
             atoms: Vec::new(),
