@@ -102,7 +102,7 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
 
     let alphabet = Alphabet { propositions: propositions.len(), letters: budget.letters };
     let (mut words, mut length) = (0, 0);
-    while let Some(more) = alphabet.count(length + 1).filter(|more| words + more <= budget.exhaustive && length < MAX_LENGTH) {
+    while let Some(more) = alphabet.count(length + 1).filter(|more| *more <= budget.exhaustive - words && length < MAX_LENGTH) {
         length += 1;
         words += more;
         for prefix in 0..length {
