@@ -1,9 +1,9 @@
-// Times the WebAssembly kernel under Node: one line of JSON in (hidden, rows, fastest, count), one line out (microseconds an update).
+// Times the WebAssembly kernel under Node: one line of JSON in ({what, hidden, rows, count}), one line out (seconds for one).
 // usage: node kernels.mjs MODULE.wasm
 import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";
 
-const module = await WebAssembly.compile(readFileSync(process.argv[2]));
+const module = await WebAssembly.compile(readFileSync(process.argv.at(-1)));
 // The timed functions call nothing outside; imports that other parts of the crate's dependencies declare are not there.
 const imports = {};
 for (const { module: from, name } of WebAssembly.Module.imports(module)) {
@@ -11,19 +11,26 @@ for (const { module: from, name } of WebAssembly.Module.imports(module)) {
     throw new Error(`${from}.${name} was called`);
   };
 }
-const instance = await WebAssembly.instantiate(module, imports);
-const { prepare, updates, acts } = instance.exports;
-let prepared = "";
+const { exports } = await WebAssembly.instantiate(module, imports);
+
+// What prepares each measure (its answer names what to run it on) and what runs it.
+const measures = {
+  update: { prepare: ({ hidden, rows }) => exports.prepare(8, 2, hidden, rows), run: exports.updates },
+  act: { prepare: () => exports.prepare(8, 2, 64, 64), run: exports.acts },
+  step: { prepare: () => exports.prepare_trainer(), run: exports.steps },
+  step_update: { prepare: () => exports.prepare_step_update(), run: exports.updates },
+};
+const prepared = new Map();
 
 for await (const line of createInterface({ input: process.stdin })) {
-  const { hidden, rows, fastest, count, act } = JSON.parse(line);
-  const wanted = `${hidden} ${rows} ${fastest}`;
-  if (wanted !== prepared) {
-    prepare(hidden, rows, fastest);
-    updates(Math.max(20, count / 4)); // until the optimising compiler has taken over
-    prepared = wanted;
+  const { count, ...measure } = JSON.parse(line);
+  const { prepare, run } = measures[measure.what];
+  const key = JSON.stringify(measure);
+  if (!prepared.has(key)) {
+    prepared.set(key, prepare(measure));
+    run(prepared.get(key), 100); // until the optimising compiler has taken over
   }
   const start = performance.now();
-  (act ? acts : updates)(count);
-  console.log((1000 * (performance.now() - start)) / count);
+  run(prepared.get(key), count);
+  console.log((performance.now() - start) / 1000 / count);
 }

@@ -1,5 +1,6 @@
 //! The commands, and the way from the program's arguments to its exit code.
 
+use super::bench;
 use super::check;
 use super::classify;
 use super::eval;
@@ -35,6 +36,8 @@ pub enum Command {
     Eval(eval::Eval),
     /// Draw the curves of one or several runs: average and total reward, rounds, success.
     Plot(plot::Plot),
+    /// Time the networks and whole training steps: all implementations in one table of ratios.
+    Bench(bench::Bench),
     /// Print the JSON schema of task files.
     Schema(schema::Schema),
 }
@@ -55,6 +58,7 @@ pub fn main() -> ExitCode {
         Command::Train(train) => train.run(),
         Command::Eval(eval) => eval.run(),
         Command::Plot(plot) => plot.run(),
+        Command::Bench(bench) => bench.run(),
         Command::Schema(schema) => schema.run(),
     };
     done.unwrap_or_else(|failure| failure.print())

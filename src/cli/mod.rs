@@ -3,6 +3,7 @@
 //! Exit codes: 0 done, 1 the answer is no or something failed while running, 2 the input is not what it must be.
 //! Results go to standard output (`--json`: one JSON object per line), progress and errors to standard error.
 
+pub mod bench;
 mod check;
 mod classify;
 mod command;

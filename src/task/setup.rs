@@ -187,6 +187,11 @@ impl Setup {
 
     /// A fresh learner.
     pub fn learner(&self, seed: u64) -> ModularDdpg {
+        self.learner_on(engine, seed)
+    }
+
+    /// A fresh learner whose networks `engine` makes.
+    pub fn learner_on(&self, engine: Engine, seed: u64) -> ModularDdpg {
         let start: (Engine, u64) = (engine, seed);
         let (embedding, reward) = (self.product.embedding().clone(), self.reward.clone());
         ModularDdpg::new(self.preset.learner.clone(), embedding, reward, self.sizes(), start)
@@ -195,11 +200,16 @@ impl Setup {
 
     /// A fresh trainer.
     pub fn trainer(&self, seed: u64) -> Trainer {
+        self.trainer_on(engine, seed)
+    }
+
+    /// A fresh trainer whose networks `engine` makes: to compare implementations.
+    pub fn trainer_on(&self, engine: Engine, seed: u64) -> Trainer {
         let mut settings: TrainingSettings = self.preset.training;
         if settings.max_steps == 0 {
             settings.max_steps = self.task.file.evaluation.max_steps;
         }
-        Trainer::new(self.product(), self.learner(seed), self.reward.clone(), settings, seed)
+        Trainer::new(self.product(), self.learner_on(engine, seed), self.reward.clone(), settings, seed)
     }
 
     /// A fresh run: a trainer with evaluations.
