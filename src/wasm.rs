@@ -128,6 +128,11 @@ impl Session {
         Uint8Array::from(self.0.save(Replays::Leave).as_slice())
     }
 
+    /// The best policy alone: small, to be shown, not trained on.
+    pub fn save_policy(&self) -> Uint8Array {
+        Uint8Array::from(self.0.save_policy().as_slice())
+    }
+
     /// Everything that does not change from step to step.
     pub fn describe(&self) -> JsDescription {
         plain(&self.0.describe())

@@ -177,6 +177,23 @@ fn refusals_name_the_text_and_the_place() {
 }
 
 #[test]
+fn a_formula_of_ones_own_is_translated_and_an_automaton_is_held_against_it() {
+    let own = OpenRequest { formula: Some("F (r2 & X F r1) & G !(r1 & r2)".into()), ..request("ball_pass_b1") };
+    let mut session = Session::open(&own).unwrap_or_else(|e| panic!("{e}"));
+    assert!(session.describe().hoa.starts_with("HOA: v1"));
+    session.advance(20);
+    let shipped = open("ball_pass_b1").describe().hoa;
+    let same = OpenRequest { formula: Some("G F r2 & G F r1".into()), hoa: Some(shipped.clone()), ..request("ball_pass_b1") };
+    assert!(Session::open(&same).is_ok());
+    let other = OpenRequest { formula: Some("F G r1".into()), hoa: Some(shipped), ..request("ball_pass_b1") };
+    let refusal = Session::open(&other).err().expect("they differ");
+    assert!(refusal.subject == Subject::Hoa && refusal.message.contains("cycle{"), "{refusal}");
+    let strange = OpenRequest { formula: Some("G F r9".into()), ..request("ball_pass_b1") };
+    let refusal = Session::open(&strange).err().expect("there is no r9");
+    assert!(refusal.subject == Subject::Formula && refusal.message.contains("r9"), "{refusal:?}");
+}
+
+#[test]
 fn an_override_is_in_force() {
     let changed = OpenRequest { overrides: [("learner.n_step".to_owned(), "3".to_owned())].into(), ..request("ball_pass_b1") };
     let description = Session::open(&changed).unwrap().describe();

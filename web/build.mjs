@@ -71,6 +71,10 @@ await cp(join(modules, '@fontsource/ibm-plex-mono/files/ibm-plex-mono-latin-400-
 await cp(join(modules, '@fontsource/ibm-plex-mono/files/ibm-plex-mono-latin-500-normal.woff2'), join(out, 'fonts/ibm-plex-mono-500.woff2'));
 if (await exists(join(here, '../assets'))) await cp(join(here, '../assets'), join(out, 'assets'), { recursive: true });
 
+// The tasks whose trained policies come along.
+const policies = await readdir(join(out, 'assets/policies')).catch(() => /** @type {string[]} */ ([]));
+await writeFile(join(out, 'policies.json'), JSON.stringify(policies.filter((f) => f.endsWith('.safetensors')).map((f) => f.replace('.safetensors', '')).sort()));
+
 // What the offline worker keeps: everything, under a name that changes with the content.
 const files = (await readdir(out, { recursive: true, withFileTypes: true }))
   .filter((entry) => entry.isFile())

@@ -17,9 +17,10 @@ mod describe;
 mod drive;
 mod edges;
 mod frame;
+mod live;
 mod open;
 mod refusal;
-mod session;
+
 mod trial;
 
 pub use builtin::{TaskEntry, builtin_tasks};
@@ -28,7 +29,7 @@ pub use curves::{CurveRecorder, Curves, EpisodeOutcome};
 pub use describe::{Description, EnvironmentFacts, PropositionFacts, Setting, TaskFacts};
 pub use edges::EdgeIndex;
 pub use frame::{Counters, FrameWriter, LAYOUT_VERSION, Layout, LayoutField, Source};
+pub use live::{EpisodeTrace, ModuleStatistics, Session};
 pub use open::OpenRequest;
 pub use refusal::{Place, Refusal, Subject};
-pub use session::{EpisodeTrace, ModuleStatistics, Session};
 pub use trial::{Trial, TrialProgress};

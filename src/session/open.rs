@@ -61,14 +61,15 @@ impl OpenRequest {
         let preset = self.preset.as_deref().unwrap_or(&presets[0]);
         let change = |(path, value): (&String, &String)| Override { path: path.clone(), value: value.clone() };
         let overrides: Vec<Override> = self.overrides.iter().map(change).collect();
-        let untranslated = hoa_text.is_none();
+        let alone = self.formula.is_some() && hoa_text.is_none();
         let setup = Setup::open(task, preset, &overrides, hoa_text).map_err(|error| {
+            let about_hoa = hoa_text.is_some_and(|text| error.text() == text);
             let refusal = task_refusal(error);
-            // Of a formula that came alone, what goes wrong with its translation or its propositions is the formula's.
-            if self.formula.is_some() && untranslated {
-                Refusal { subject: Subject::Formula, place: Place::default(), ..refusal }
-            } else {
-                refusal
+            match (about_hoa, alone && refusal.place.line > 0) {
+                (true, _) => Refusal { subject: Subject::Hoa, ..refusal },
+                // Of a formula that came alone, what goes wrong with it is the formula's; its place in the task file says nothing.
+                (_, true) => Refusal { subject: Subject::Formula, place: Place::default(), ..refusal },
+                _ => refusal,
             }
         })?;
         let hoa = hoa_text.map_or_else(|| written(setup.automaton()), str::to_owned);

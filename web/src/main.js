@@ -96,13 +96,17 @@ class App {
     this.driving = false;
     this.timeline = new Timeline($.canvas('timeline'), (row) => this.seek(row));
     this.modules = new Modules($.any('modules'));
-    this.settings = new Settings($.any('settings'));
+    this.settings = new Settings($.any('settings'), (key, value) => this.override(key, value));
     this.evaluation = new Evaluation($.any('evaluation'));
     /** @type {Curves | null} */
     this.curves = null;
+    /** Whether the trained policy of this task is loaded. */
+    this.trained = false;
+    /** The tasks with a trained policy. @type {string[]} */
+    this.policies = [];
     this.wire();
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) this.setPlaying(false);
-    this.controls.show(this.state);
+    this.controls.show(this.state, this.trained);
     this.hide();
     for (const { property, message } of problems) this.notice(`The link’s “${property}” ${message}.`, true);
   }
@@ -154,7 +158,9 @@ class App {
     $.button('following').addEventListener('click', () => this.jump(1));
     $.input('scrub').addEventListener('input', () => this.seek(Number($.input('scrub').value)));
     $.button('evaluate').addEventListener('click', () => this.ask({ kind: 'evaluate', runs: 200 }));
-    $.button('save').addEventListener('click', () => this.save());
+    $.button('settings-own').addEventListener('click', () => this.open({ ...this.state, set: {} }));
+    $.button('save').addEventListener('click', () => this.save('whole'));
+    $.button('save-policy').addEventListener('click', () => this.save('policy'));
     $.input('load').addEventListener('change', () => this.load());
     $.button('share').addEventListener('click', () => this.share());
     $.button('theme').addEventListener('click', () => this.nextTheme());
@@ -176,8 +182,10 @@ class App {
   /** Begins: the worker, the task of the link, the first episode; then the libraries that can wait. */
   async start() {
     requestAnimationFrame((now) => this.paint(now));
+    const listed = fetch('policies.json').then((r) => r.json()).catch(() => []);
     try {
       const tasks = await this.client.ready;
+      this.policies = await listed;
       this.spec.offer(tasks);
       if (!tasks.some((t) => t.name === this.state.task)) {
         this.notice(`The link’s “task” ${this.state.task} is unknown; known are ${tasks.map((t) => t.name).join(', ')}.`, true);
@@ -232,6 +240,7 @@ class App {
     this.generation = generation;
     this.description = description;
     this.training = false;
+    this.trained = false;
     this.live = null;
     this.view = new Frame(description.layout);
     const { playing } = this.player;
@@ -245,19 +254,46 @@ class App {
     this.stage?.close();
     this.stage = new Stage($.canvas('stage'), description);
     this.spec.show(description);
-    this.controls.show(this.state);
+    this.controls.show(this.state, this.trained);
     this.controls.training(false);
     this.controls.rate(0);
     this.frontier.show(description.automaton);
     this.reward.show(description.automaton);
     this.timeline.show(description);
-    this.settings.show(description.settings);
+    this.settings.show(description.settings, this.state.set);
+    setText($.any('settings-note'), Object.keys(this.state.set).length > 0 ? 'changed by you' : 'change one to start anew');
+    $.button('settings-own').hidden = Object.keys(this.state.set).length === 0;
     this.evaluation.clear();
     this.automaton.show(description.automaton).then(() => this.refresh()).catch((error) => $.any('automaton').replaceChildren(element('p', { className: 'note' }, `The automaton could not be drawn: ${error}`)));
     setText($.any('stage-title'), description.task.title);
     this.writeHash();
-    this.nextEpisode();
-    this.watch(this.state.watch);
+    this.loadTrained().then(() => {
+      if (generation !== this.generation) return;
+      this.controls.show(this.state, this.trained);
+      this.watch(this.state.watch);
+      this.nextEpisode();
+    });
+  }
+
+  /** Loads the trained policy of the open task, if one comes with the page and the task is as it is shipped. */
+  async loadTrained() {
+    const { task, formula, hoa } = this.state;
+    if (formula || hoa || !this.policies.includes(task)) return;
+    try {
+      const answer = await fetch(`assets/policies/${task}.safetensors`);
+      if (!answer.ok) return;
+      const { generation, fits } = await this.client.ask({ kind: 'load_policy', bytes: new Uint8Array(await answer.arrayBuffer()) });
+      if (generation === this.generation) this.trained = fits;
+    } catch {
+      // Without it the page shows the present policy.
+    }
+  }
+
+  /** Whether the stage plays episodes, and whose. */
+  get playing() {
+    const { watch } = this.state;
+    if (watch === 'trained') return this.trained ? 'shipped' : 'present';
+    return watch === 'policy' ? 'present' : null;
   }
 
   /** @param {import('./protocol.js').Command} command */
@@ -282,16 +318,20 @@ class App {
 
   // --- playback ---------------------------------------------------------------------------------------------------------
 
+  /** Asks for the next episode of whose policy is watched. @returns {Promise<void>} */
   async nextEpisode() {
-    if (this.asking) return;
+    const of = this.playing;
+    if (this.asking || !of) return;
     this.asking = true;
     const index = this.episodeIndex++;
-    const answer = await this.ask({ kind: 'rollout', index });
+    const answer = await this.ask({ kind: 'rollout', index, of });
     if (!answer || answer.generation !== this.generation) return;
     this.asking = false;
+    if (of !== this.playing) return this.nextEpisode();
     this.player.load(answer.episode);
+    this.player.of = of;
     this.restedSince = 0;
-    if (this.state.watch === 'policy') this.takeEpisode(answer.episode);
+    this.takeEpisode(answer.episode);
   }
 
   /** @param {Episode} episode */
@@ -310,7 +350,7 @@ class App {
     this.lastPaint = now;
     if (!this.description || !this.view) return;
     if (this.live && this.liveIsNew) this.controls.update(this.live);
-    if (this.state.watch === 'policy') this.paintEpisode(now, seconds);
+    if (this.playing) this.paintEpisode(now, seconds);
     else if (this.state.watch === 'drive') this.driveOn(seconds);
     else if (this.liveIsNew && this.live) this.paintLive(now, this.live);
     this.liveIsNew = false;
@@ -380,7 +420,7 @@ class App {
     scrub.setAttribute('aria-valuetext', `step ${player.row} of ${player.last}`);
     setText($.any('clock'), `${player.row}/${player.last}`);
     const steps = view.counter('step');
-    this.stageNote(steps === 0 ? 'Before any training' : '');
+    this.stageNote(this.playing === 'shipped' ? 'A trained policy' : steps === 0 ? 'The policy before any training' : '');
   }
 
   /** @param {number} now @param {Frame} live */
@@ -418,14 +458,14 @@ class App {
 
   /** @param {number} row */
   seek(row) {
-    if (this.state.watch !== 'policy') return;
+    if (!this.playing) return;
     this.setPlaying(false);
     this.player.seek(row);
   }
 
   /** @param {-1 | 1} direction */
   jump(direction) {
-    if (this.state.watch !== 'policy') return;
+    if (!this.playing) return;
     this.setPlaying(false);
     this.player.jump(this.list, direction);
   }
@@ -452,12 +492,13 @@ class App {
   watch(watch) {
     this.change({ watch });
     this.stageNote('');
-    for (const id of ['previous', 'following']) $.button(id).disabled = watch !== 'policy';
-    $.input('scrub').disabled = watch !== 'policy';
+    for (const id of ['previous', 'following']) $.button(id).disabled = !this.playing;
+    $.input('scrub').disabled = !this.playing;
     this.driver.activate(false);
     this.frontier.jumps(null, () => {});
     this.recorder = new Recorder();
-    if (watch === 'policy' && this.player.episode) this.takeEpisode(this.player.episode);
+    if (this.playing && this.player.episode && this.player.of === this.playing) this.takeEpisode(this.player.episode);
+    else if (this.playing) this.nextEpisode();
     else if (watch === 'drive') this.beginDrive();
     else this.liveIsNew = this.live !== null;
     $.button('play').disabled = watch === 'training';
@@ -467,6 +508,7 @@ class App {
 
   toggleTraining() {
     this.training = !this.training;
+    if (this.training && this.state.watch === 'trained') this.watch('policy');
     this.controls.training(this.training);
     if (!this.training) this.controls.rate(0);
     this.ask(this.training ? { kind: 'train', pace: this.state.pace } : { kind: 'pause' });
@@ -480,12 +522,19 @@ class App {
     await this.ask({ kind });
   }
 
+  /** Opens the task anew with another value of a hyper-parameter; the value that is refused goes back. @param {string} key @param {string} value */
+  async override(key, value) {
+    await this.open({ ...this.state, set: { ...this.state.set, [key]: value } });
+    if (this.description && this.state.set[key] !== value) this.settings.show(this.description.settings, this.state.set);
+  }
+
   // --- keeping ------------------------------------------------------------------------------------------------------------
 
-  async save() {
+  /** @param {'whole' | 'policy'} form */
+  async save(form) {
     /** @type {Uint8Array | undefined} */
-    const bytes = await this.ask({ kind: 'save', replay: true });
-    if (bytes) offer(`${this.state.task}-seed${this.state.seed}.safetensors`, /** @type {Uint8Array<ArrayBuffer>} */ (bytes), 'application/octet-stream');
+    const bytes = await this.ask({ kind: 'save', form });
+    if (bytes) offer(`${this.state.task}-seed${this.state.seed}${form === 'policy' ? '-policy' : ''}.safetensors`, /** @type {Uint8Array<ArrayBuffer>} */ (bytes), 'application/octet-stream');
   }
 
   async load() {
@@ -516,7 +565,7 @@ class App {
   /** @param {Partial<State>} part */
   change(part) {
     this.state = { ...this.state, ...part };
-    this.controls.show(this.state);
+    this.controls.show(this.state, this.trained);
     this.writeHash();
   }
 
@@ -595,9 +644,10 @@ class App {
       ArrowRight: () => this.seek(this.player.row + 1),
       r: () => this.controls.places.reset.click(),
       n: () => this.controls.places.newSeed.click(),
-      1: () => this.watch('policy'),
-      2: () => this.watch('training'),
-      3: () => this.watch('drive'),
+      1: () => this.watch('trained'),
+      2: () => this.watch('policy'),
+      3: () => this.watch('training'),
+      4: () => this.watch('drive'),
       '?': () => $.button('help-open').click(),
     };
     const act = keys[event.key];

@@ -37,6 +37,8 @@ export class Player {
     this.rowsPerSecond = dt > 0 ? 1 / dt : 30;
     /** @type {Episode | null} */
     this.episode = null;
+    /** Whose episode it is. @type {'present' | 'shipped'} */
+    this.of = 'present';
     /** Position in rows; the whole part is the row shown. */
     this.position = 0;
     this.playing = true;

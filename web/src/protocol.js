@@ -92,13 +92,14 @@
  *   | { kind: 'pause' }
  *   | { kind: 'step' }
  *   | { kind: 'episode' }
- *   | { kind: 'rollout', index: number }
+ *   | { kind: 'rollout', index: number, of: 'present' | 'shipped' }
+ *   | { kind: 'load_policy', bytes: Uint8Array }
  *   | { kind: 'begin_drive', index: number }
  *   | { kind: 'drive', control: number[], jump: number | null }
  *   | { kind: 'evaluate', runs: number }
  *   | { kind: 'check_formula', text: string }
  *   | { kind: 'check_hoa', text: string }
- *   | { kind: 'save', replay: boolean }
+ *   | { kind: 'save', form: 'whole' | 'small' | 'policy' }
  *   | { kind: 'restore', bytes: Uint8Array }} Command
  */
 

@@ -18,6 +18,8 @@ const TELEMETRY = 250;
 
 /** @type {Session | null} */
 let session = null;
+/** A trained policy that came with the page, for its episodes only. @type {Session | null} */
+let shipped = null;
 /** @type {Frame | null} */
 let frame = null;
 /** What the open environment labels its states with. @type {string[]} */
@@ -49,6 +51,13 @@ const breathe = () => new Promise((resolve) => {
 });
 /** @param {number} ms */
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** What can be saved. */
+const SAVERS = {
+  whole: (/** @type {Session} */ s) => s.save(),
+  small: (/** @type {Session} */ s) => s.save_small(),
+  policy: (/** @type {Session} */ s) => s.save_policy(),
+};
 
 function present() {
   if (!session) throw new Error('no task is open');
@@ -146,6 +155,8 @@ function replace(next) {
   told = false;
   rate = 0;
   session?.free();
+  shipped?.free();
+  shipped = null;
   session = next;
   const description = next.describe();
   propositions = description.environment.propositions.map((p) => p.name);
@@ -179,6 +190,19 @@ function obey(command) {
     }
     case 'restore':
       return replace(Session.restore(command.bytes));
+    case 'load_policy': {
+      // It is shown with the frames of the open session, so both must have the same automaton and scene.
+      const loaded = Session.restore(command.bytes);
+      const same = (/** @type {Session} */ s) => {
+        const { automaton, environment, layout } = s.describe();
+        return JSON.stringify([automaton, environment.name, layout]);
+      };
+      const fits = same(loaded) === same(present());
+      shipped?.free();
+      shipped = fits ? loaded : null;
+      if (!fits) loaded.free();
+      return { generation: opened, fits };
+    }
     case 'train': {
       present();
       stop();
@@ -202,8 +226,9 @@ function obey(command) {
       });
       return null;
     case 'rollout': {
-      const episode = present().rollout(BigInt(command.index));
-      return { generation: opened, episode };
+      const whose = command.of === 'shipped' ? shipped : present();
+      if (!whose) throw new Error('no trained policy is loaded');
+      return { generation: opened, episode: whose.rollout(BigInt(command.index)) };
     }
     case 'begin_drive':
       return { generation: opened, data: present().begin_drive(BigInt(command.index)) };
@@ -218,7 +243,7 @@ function obey(command) {
     case 'check_hoa':
       return check_hoa(command.text);
     case 'save':
-      return command.replay ? present().save() : present().save_small();
+      return SAVERS[command.form](present());
   }
 }
 

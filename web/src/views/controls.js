@@ -36,6 +36,7 @@ import { PACES, SPEEDS } from '../state.js';
 
 /** @type {readonly { value: State['watch'], label: string, title: string }[]} */
 const WATCHES = Object.freeze([
+  { value: 'trained', label: 'Trained', title: 'Greedy episodes of the trained policy that comes with the page' },
   { value: 'policy', label: 'Policy', title: 'Greedy episodes of the policy as it is now' },
   { value: 'training', label: 'Training', title: 'The steps of training as they happen, exploration and all' },
   { value: 'drive', label: 'Drive', title: 'You choose the actions, the automaton follows' },
@@ -74,13 +75,22 @@ export class Controls {
     }
   }
 
-  /** Shows the state's choices. @param {State} state */
-  show(state) {
+  /**
+   * Shows the state's choices.
+   * @param {State} state
+   * @param {boolean} trained  whether there is a trained policy to watch
+   */
+  show(state, trained) {
     const { places } = this;
     places.seed.value = String(state.seed);
     places.speed.value = String(state.speed);
     places.pace.value = String(state.pace);
-    for (const input of places.watch.querySelectorAll('input')) input.checked = input.value === state.watch;
+    const shown = state.watch === 'trained' && !trained ? 'policy' : state.watch;
+    for (const input of places.watch.querySelectorAll('input')) {
+      input.checked = input.value === shown;
+      const label = input.closest('label');
+      if (label && input.value === 'trained') label.hidden = !trained;
+    }
   }
 
   /** @param {boolean} training */

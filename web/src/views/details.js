@@ -32,14 +32,24 @@ export class Modules {
 }
 
 export class Settings {
-  /** @param {HTMLElement} root */
-  constructor(root) {
+  /**
+   * @param {HTMLElement} root
+   * @param {(key: string, value: string) => void} change  asks for another value: the task is opened anew with it
+   */
+  constructor(root, change) {
     this.root = root;
+    this.change = change;
   }
 
-  /** @param {Setting[]} settings */
-  show(settings) {
-    this.root.replaceChildren(table(['key', 'value'], settings.map((s) => [s.key, s.value])));
+  /** @param {Setting[]} settings @param {Record<string, string>} overrides */
+  show(settings, overrides) {
+    const row = (/** @type {Setting} */ { key, value }) => {
+      const input = element('input', { type: 'text', value, spellcheck: false, autocomplete: 'off', 'aria-label': key, className: key in overrides ? 'changed' : '' });
+      input.addEventListener('change', () => this.change(key, input.value.trim()));
+      const at = key.indexOf('.') + 1;
+      return [element('span', { title: key }, element('span', { className: 'soft' }, key.slice(0, at)), key.slice(at)), input];
+    };
+    this.root.replaceChildren(table(['key', 'value'], settings.map(row)));
   }
 }
 

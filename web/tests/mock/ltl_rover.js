@@ -188,6 +188,9 @@ export class Session {
   save() {
     return new Uint8Array([1, 2, 3]);
   }
+  save_policy() {
+    return new Uint8Array([2]);
+  }
   save_small() {
     return new Uint8Array([1]);
   }

@@ -149,7 +149,7 @@ impl Session {
             automaton: self.setup.automaton().graph(),
             hoa: self.hoa.clone(),
             modules: (0..modules.len()).map(|m| modules.name(m).to_owned()).collect(),
-            settings: settings(&preset),
+            settings: settings(&preset).into_iter().filter(|s| s.key != "description").collect(),
             seed: self.seed,
             layout: self.layout.clone(),
         }
@@ -220,6 +220,11 @@ impl Session {
         let mut origin = self.setup.origin();
         origin.notes.insert(CURVES.to_owned(), toml::to_string(&self.curves).expect("curves are made of tables and numbers"));
         self.run.save(&origin, replays)
+    }
+
+    /// The best policy alone (of this moment, if no evaluation has seen one): a small file that can be shown, not trained on.
+    pub fn save_policy(&self) -> Vec<u8> {
+        self.run.save_policy(&self.setup.origin())
     }
 
     /// Opens a checkpoint or a policy file.
