@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// translation grows too large.
 pub(super) fn automaton(task: &Task, text: Option<&str>) -> Result<Arc<Ldgba>, TaskError> {
     let Some(text) = text else {
-        let options =
-            TranslateOptions { exclusive: if exclusive { vec![regions(task)] } else { vec![] }, ..TranslateOptions::default() };
+        let exclusive = if task.environment()?.spec().exclusive { vec![regions(task)] } else { vec![] };
+        let options = TranslateOptions { exclusive, ..TranslateOptions::default() };
         let error = |message| TaskError::new(&task.name, &task.text, task.place(&["specification", "ltl"]), message);
         return translate(&task.formula, &options).map(Arc::new).map_err(|e| error(e.to_string()));
     };
