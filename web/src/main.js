@@ -47,6 +47,8 @@ class App {
     this.evaluation = new Evaluation($.any('evaluation'));
     /** @type {Curves | null} */
     this.curves = null;
+    /** The newest curves, for the plots when they are there. @type {import('./protocol.js').Curves | null} */
+    this.points = null;
     this.wire();
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) this.theatre.setPlaying(false);
     this.showState();
@@ -62,8 +64,8 @@ class App {
       },
       telemetry: (reply) => {
         if (reply.generation !== this.generation) return;
-        this.setTraining(reply.training);
         this.controls.rate(reply.rate);
+        this.points = reply.curves;
         this.curves?.update(reply.curves);
         this.modules.update(reply.modules);
       },
@@ -72,6 +74,7 @@ class App {
       },
       finished: ({ generation, first_perfect_step }) => {
         if (generation !== this.generation) return;
+        this.setTraining(false);
         notice(first_perfect_step === null
           ? 'Training has used up the budget of its recipe. Press Train to go on.'
           : `Learned: every run of the evaluation after ${count(first_perfect_step)} steps satisfies the task. Press Train to go on.`);
@@ -123,7 +126,10 @@ class App {
 
   wire() {
     const on = (/** @type {string} */ id, /** @type {() => void} */ act) => $.button(id).addEventListener('click', act);
-    on('evaluate', () => this.ask({ kind: 'evaluate', runs: RUNS }));
+    on('evaluate', () => {
+      this.setTraining(false);
+      this.ask({ kind: 'evaluate', runs: RUNS });
+    });
     on('settings-own', () => this.open({ ...this.state, set: {} }));
     on('save', () => this.save('whole'));
     on('save-policy', () => this.save('policy'));
@@ -163,7 +169,7 @@ class App {
     }
     await this.open(this.state, true);
     this.curves = new Curves($.any('curves'), await loadPlot());
-    if (this.description && !this.training) this.ask({ kind: 'pause' });
+    if (this.points) this.curves.update(this.points);
   }
 
   // --- the session --------------------------------------------------------------------------------------------------------

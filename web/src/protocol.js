@@ -109,7 +109,7 @@
  *   | { kind: 'done', id: number, value: any }
  *   | { kind: 'failed', id: number, error: Located }
  *   | { kind: 'frame', generation: number, data: Float32Array }
- *   | { kind: 'telemetry', generation: number, rate: number, training: boolean, curves: Curves, modules: ModuleStatistics[] }
+ *   | { kind: 'telemetry', generation: number, rate: number, curves: Curves, modules: ModuleStatistics[] }
  *   | { kind: 'evaluation', generation: number, progress: EvaluationProgress }
  *   | { kind: 'finished', generation: number, first_perfect_step: number | null }
  *   | { kind: 'broken', message: string }} Reply

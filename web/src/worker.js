@@ -30,7 +30,6 @@ let generation = 0;
 let told = false;
 /** The generation of the session: frames of a session that was replaced are not shown. */
 let opened = 0;
-let training = false;
 /** Environment steps a second, measured over the last half second. */
 let rate = 0;
 
@@ -71,7 +70,7 @@ function sendFrame() {
 
 function sendTelemetry() {
   const open = present();
-  tell({ kind: 'telemetry', generation: opened, rate, training, curves: open.curves(), modules: open.statistics() });
+  tell({ kind: 'telemetry', generation: opened, rate, curves: open.curves(), modules: open.statistics() });
 }
 
 /**
@@ -151,7 +150,6 @@ async function evaluate(mine, runs) {
 function replace(next) {
   generation++;
   opened++;
-  training = false;
   told = false;
   rate = 0;
   session?.free();
@@ -166,7 +164,6 @@ function replace(next) {
 
 function stop() {
   generation++;
-  training = false;
   rate = 0;
 }
 
@@ -206,7 +203,6 @@ function obey(command) {
     case 'train': {
       present();
       stop();
-      training = true;
       train(generation, command.pace).catch(fail);
       return null;
     }
