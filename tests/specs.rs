@@ -210,3 +210,23 @@ fn a_map_of_ones_own_goes_with_the_checkpoint() {
             == run.save(&setup.origin(), ltl_rover::agent::Replays::Keep)
     );
 }
+
+#[test]
+fn an_automaton_of_another_formula_is_refused_with_a_word() {
+    let b1 = fs::read_to_string(folder().join("ball_pass_b1.hoa")).unwrap();
+    let text = fs::read_to_string(folder().join("ball_pass_b2.toml")).unwrap();
+    let Err(error) = Setup::open(Task::parse(&text, "task.toml").unwrap(), "fast", &[], Some(&b1)) else { panic!("they differ") };
+    assert!(error.message().contains("cycle{"), "{error}");
+    let line = 1 + text.lines().position(|l| l.starts_with("hoa")).unwrap();
+    assert_eq!(error.position().map(|p| p.0), Some(line), "{error}");
+}
+
+#[test]
+fn without_a_file_the_formula_is_translated() {
+    for (name, text) in tasks() {
+        let text: String = text.lines().filter(|l| !l.starts_with("hoa = ")).map(|l| format!("{l}\n")).collect();
+        let setup = open(&name, &text, "fast", &[]).unwrap_or_else(|e| panic!("{e}"));
+        assert!(setup.automaton().len() > 1, "{name}");
+        assert_eq!(setup.trainer(1).ticks().take(50).count(), 50, "{name}");
+    }
+}

@@ -6,6 +6,8 @@ use super::classify;
 use super::eval;
 use super::failure::Failure;
 use super::plot;
+use super::replay;
+use super::run;
 use super::schema;
 use super::train;
 use super::translate;
@@ -34,6 +36,10 @@ pub enum Command {
     Train(train::Train),
     /// Judge a trained policy: success rate with its interval, rounds, sinks.
     Eval(eval::Eval),
+    /// Walk the embedded product at random (Algorithm 1 of the paper).
+    Run(run::Run),
+    /// Play one greedy episode of a trained policy, step by step.
+    Replay(replay::Replay),
     /// Draw the curves of one or several runs: average and total reward, rounds, success.
     Plot(plot::Plot),
     /// Time the networks and whole training steps: all implementations in one table of ratios.
@@ -57,6 +63,8 @@ pub fn main() -> ExitCode {
         Command::Translate(translate) => translate.run(),
         Command::Train(train) => train.run(),
         Command::Eval(eval) => eval.run(),
+        Command::Run(run) => run.run(),
+        Command::Replay(replay) => replay.run(),
         Command::Plot(plot) => plot.run(),
         Command::Bench(bench) => bench.run(),
         Command::Schema(schema) => schema.run(),

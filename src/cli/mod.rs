@@ -14,8 +14,11 @@ mod files;
 mod logs;
 mod plot;
 mod progress;
+mod replay;
+mod run;
 pub mod schema;
 mod train;
+mod trajectory;
 mod translate;
 
 pub use command::{Cli, main};
