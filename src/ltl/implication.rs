@@ -4,12 +4,12 @@
 //! eventual and universal formulas.
 
 use super::normal_form::{Node, NodeId, Store};
-use std::collections::HashMap;
+use crate::bdd::Memo;
 
 /// Remembers what was asked.
 #[derive(Default)]
 pub struct Implications {
-    known: HashMap<(NodeId, NodeId), bool>,
+    known: Memo<(NodeId, NodeId), bool>,
 }
 
 impl Implications {

@@ -1,8 +1,7 @@
 //! The automaton under construction: states with guarded, marked edges and ε-jumps. Letters without an edge reject.
 
 use super::work::{Stop, Work};
-use crate::bdd::{Bdd, Manager};
-use std::collections::HashMap;
+use crate::bdd::{Bdd, Manager, Memo};
 use std::hash::Hash;
 
 /// A set of accepting sets, bit j for set j.
@@ -59,7 +58,7 @@ pub(super) fn all_sets(sets: usize) -> MarkSet {
 
 /// Edges with the same target and marks become one.
 pub(super) fn merge_edges(bdd: &mut Manager, edges: Vec<Arrow>) -> Result<Vec<Arrow>, Stop> {
-    let mut places: HashMap<(usize, MarkSet), usize> = HashMap::new();
+    let mut places: Memo<(usize, MarkSet), usize> = Memo::default();
     let mut merged: Vec<Arrow> = Vec::new();
     for edge in edges {
         match places.get(&(edge.target, edge.marks)) {
@@ -75,13 +74,13 @@ pub(super) fn merge_edges(bdd: &mut Manager, edges: Vec<Arrow>) -> Result<Vec<Ar
 
 /// The numbers of the states met so far.
 pub(super) struct Numbering<S> {
-    numbers: HashMap<S, usize>,
+    numbers: Memo<S, usize>,
     states: Vec<S>,
 }
 
 impl<S: Clone + Eq + Hash> Numbering<S> {
     pub fn new() -> Numbering<S> {
-        Numbering { numbers: HashMap::new(), states: Vec::new() }
+        Numbering { numbers: Memo::default(), states: Vec::new() }
     }
 
     /// The number of `state`, which is new if it was not met before.

@@ -9,8 +9,8 @@
 
 use super::unfold::Unfolding;
 use super::work::Stop;
+use crate::bdd::Memo;
 use crate::ltl::{Node, NodeId};
-use std::collections::HashMap;
 
 /// A set of keys, bit i for key i of the [`Guesses`].
 pub(super) type KeySet = u64;
@@ -37,8 +37,8 @@ pub(super) enum Scope {
 #[derive(Default)]
 pub(super) struct Guesses {
     keys: Vec<Key>,
-    of: HashMap<(Scope, NodeId), KeySet>,
-    rewritten: HashMap<(bool, KeySet, NodeId), NodeId>,
+    of: Memo<(Scope, NodeId), KeySet>,
+    rewritten: Memo<(bool, KeySet, NodeId), NodeId>,
 }
 
 impl Guesses {

@@ -38,8 +38,13 @@ enum Place {
     Inside { main: Pair, renewal: Option<Renewal>, beside: usize, at: usize },
 }
 
-/// The automaton for the formula with the raw diagram `raw`.
-pub(super) fn limit_deterministic(u: &mut Unfolding<'_>, raw: Bdd, guess: Guess, together: Together) -> Result<Graph, Stop> {
+/// The automaton for the formula with the raw diagram `raw`, and whether several recurrences that need memory stand beside one another in it.
+pub(super) fn limit_deterministic(
+    u: &mut Unfolding<'_>,
+    raw: Bdd,
+    guess: Guess,
+    together: Together,
+) -> Result<(Graph, bool), Stop> {
     let mut builder = Builder {
         guess,
         together,
@@ -57,7 +62,8 @@ pub(super) fn limit_deterministic(u: &mut Unfolding<'_>, raw: Bdd, guess: Guess,
     builder.expand(u)?;
     builder.add_jumps(u)?;
     builder.expand(u)?;
-    Ok(builder.finish())
+    let memory = builder.besides.has_memory(u);
+    Ok((builder.finish(), memory))
 }
 
 struct Builder {

@@ -56,6 +56,9 @@ impl Best {
     }
 }
 
+/// About how many fixpoints an attempt may guess that competes with a result: each doubles the work, and rarely pays beyond this.
+const GUESSES_TO_COMPETE: usize = 7;
+
 /// How many states an attempt may make that competes with a result of `best` states.
 fn allowance(u: &Unfolding<'_>, best: &Best) -> usize {
     let limit = u.work.budget().states;
@@ -68,21 +71,21 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
     let parts = conjuncts(u, formula);
     let (easy, hard): (Vec<NodeId>, Vec<NodeId>) = parts.iter().partition(|id| u.store.traits(**id).pi <= 2);
     if hard.is_empty() {
-        u.work.start_attempt(u.work.budget().states);
+        u.work.start_attempt(u.work.budget().states, u.work.budget().guesses);
         let attempt = deterministic(u, &parts);
         best.offer(u, attempt)?;
         if best.is_minimal() {
             return best.result();
         }
         for renewal in [Renewal::Raw, Renewal::Unfolded] {
-            u.work.start_attempt(allowance(u, &best));
+            u.work.start_attempt(allowance(u, &best), 0);
             let attempt = u.raw(formula).and_then(|raw| breakpoint(u, raw, renewal));
             best.offer(u, attempt)?;
         }
     } else if !easy.is_empty() {
         let rest = u.store.and(hard);
         let attempt = smallest(u, rest).and_then(|rest| {
-            u.work.start_attempt(u.work.budget().states);
+            u.work.start_attempt(u.work.budget().states, u.work.budget().guesses);
             let beside = deterministic(u, &easy)?;
             let beside = reduced(u, beside)?;
             product(u, &beside, &rest)
@@ -92,6 +95,8 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
     if best.is_minimal() {
         return best.result();
     }
+    // Whether several recurrences that need memory stand beside one another: only then can a round robin be smaller.
+    let mut has_memory = false;
     for (guess, together) in [
         (Guess::Symmetric, Together::Product),
         (Guess::Split, Together::Product),
@@ -102,8 +107,16 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
         (Guess::Asymmetric(Layout::Pieces, Renewal::Raw), Together::Product),
         (Guess::Asymmetric(Layout::Pieces, Renewal::Unfolded), Together::Product),
     ] {
-        u.work.start_attempt(allowance(u, &best));
+        if together == Together::RoundRobin && !has_memory {
+            continue;
+        }
+        let guesses = if best.graph.is_some() { GUESSES_TO_COMPETE } else { u.work.budget().guesses };
+        u.work.start_attempt(allowance(u, &best), guesses);
         let attempt = u.raw(formula).and_then(|raw| limit_deterministic(u, raw, guess, together));
+        let attempt = attempt.map(|(graph, memory)| {
+            has_memory |= memory;
+            graph
+        });
         best.offer(u, attempt)?;
     }
     best.result()

@@ -23,7 +23,7 @@ pub(super) fn keys(u: &mut Unfolding<'_>, guesses: &mut Guesses, b: Bdd, scope: 
         all |= guesses.of(u, atom, scope)?;
     }
     let count = all.count_ones() as usize;
-    if count > u.work.budget().guesses { Err(Stop::Guesses(count)) } else { Ok(all) }
+    if count > u.work.guesses() { Err(Stop::Guesses(count)) } else { Ok(all) }
 }
 
 /// The subsets of a set, the empty one first.

@@ -105,6 +105,12 @@ impl Besides {
         Ok(self.graphs.len() - 1)
     }
 
+    /// Whether a list has several recurrences that need memory.
+    pub fn has_memory(&self, u: &Unfolding<'_>) -> bool {
+        let needs_memory = |formula: &&NodeId| recurring(u, **formula).is_some_and(|chi| !u.store.traits(chi).boolean);
+        self.lists.keys().any(|(list, _)| list.iter().filter(needs_memory).count() > 1)
+    }
+
     /// The automaton with that number.
     pub fn graph(&self, number: usize) -> Rc<Graph> {
         self.graphs[number].clone()

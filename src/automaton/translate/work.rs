@@ -30,6 +30,8 @@ pub(super) struct Work<'a> {
     states: usize,
     /// States that the present attempt may still make.
     attempt: usize,
+    /// Fixpoints that the present attempt may guess about.
+    guesses: usize,
     ticks: usize,
     cancelled: &'a dyn Fn() -> bool,
 }
@@ -39,16 +41,22 @@ const PATIENCE: usize = 256;
 
 impl<'a> Work<'a> {
     pub fn new(budget: Budget, cancelled: &'a dyn Fn() -> bool) -> Work<'a> {
-        Work { budget, states: budget.states, attempt: budget.states, ticks: 0, cancelled }
+        Work { budget, states: budget.states, attempt: budget.states, guesses: budget.guesses, ticks: 0, cancelled }
     }
 
     pub fn budget(&self) -> Budget {
         self.budget
     }
 
-    /// Allows the next attempt at most `states` states.
-    pub fn start_attempt(&mut self, states: usize) {
+    /// Allows the next attempt at most `states` states, and guesses about at most `guesses` fixpoints.
+    pub fn start_attempt(&mut self, states: usize, guesses: usize) {
         self.attempt = states;
+        self.guesses = guesses.min(self.budget.guesses);
+    }
+
+    /// How many fixpoints the present attempt may guess about.
+    pub fn guesses(&self) -> usize {
+        self.guesses
     }
 
     /// Counts one new state.
