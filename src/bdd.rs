@@ -1,11 +1,13 @@
 //! Reduced ordered binary decision diagrams with one shared, hash-consed table of nodes.
 //!
 //! Equal functions are equal indices, so comparing two functions costs nothing. The order of the variables is that of their numbers; new
-//! variables may be used at any time. Nothing is ever freed: a [`Manager`] lives as long as one translation, and a limit on its nodes bounds
-//! both its space and its time.
+//! variables may be used at any time. Nothing is ever freed: a [`Manager`] lives as long as one translation, and limits on its nodes and on its
+//! steps bound its space and its time.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
+use std::rc::Rc;
 
 /// A function of Boolean variables, as an index into its [`Manager`]. Two functions of one manager are equal exactly if the indices are.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -31,12 +33,21 @@ impl Bdd {
 /// The number of a variable; smaller numbers are asked first.
 pub type Variable = u32;
 
-/// The table of nodes is full.
+/// The work allowed was not enough.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("a decision diagram needs more than the {limit} nodes allowed")]
-pub struct NodeLimit {
-    /// How many nodes were allowed.
-    pub limit: usize,
+pub enum Exhausted {
+    /// The table of nodes is full.
+    #[error("a decision diagram needs more than the {limit} nodes allowed")]
+    Nodes {
+        /// How many nodes were allowed.
+        limit: usize,
+    },
+    /// There were too many steps of recursion.
+    #[error("decision diagrams need more than the {limit} steps allowed")]
+    Steps {
+        /// How many steps were allowed.
+        limit: u64,
+    },
 }
 
 /// A node: if `variable` then `high` else `low`.
@@ -58,11 +69,32 @@ pub struct Manager {
     /// Results of if-then-else, by their arguments; a new result overwrites an old one of the same hash.
     cache: Vec<(Bdd, Bdd, Bdd, Bdd)>,
     limit: usize,
+    /// Steps of recursion that are left, and were allowed.
+    steps: u64,
+    max_steps: u64,
+    /// Supports already found.
+    supports: RefCell<Supports>,
+    /// Results of the present replacement: per node, the replacement's number and the result.
+    replaced: Vec<(u32, Bdd)>,
+    replacement: u32,
+}
+
+/// The supports of functions, and a place to mark nodes that were seen: per node the number of the last search.
+#[derive(Default)]
+struct Supports {
+    known: Memo<Bdd, Rc<[Variable]>>,
+    seen: Vec<u32>,
+    search: u32,
 }
 
 impl Manager {
-    /// A manager for at most `limit` nodes.
+    /// A manager for at most `limit` nodes, and as many steps as may be.
     pub fn new(limit: usize) -> Manager {
+        Manager::with_limits(limit, u64::MAX)
+    }
+
+    /// A manager for at most `limit` nodes (about 40 bytes each) and `max_steps` steps of recursion (some 20 million a second natively).
+    pub fn with_limits(limit: usize, max_steps: u64) -> Manager {
         let constant = |this| Node { variable: NONE, low: this, high: this };
         let nothing = (Bdd::FALSE, Bdd::FALSE, Bdd::FALSE, Bdd::FALSE);
         Manager {
@@ -70,7 +102,17 @@ impl Manager {
             unique: vec![0; 1 << 8],
             cache: vec![nothing; 1 << 10],
             limit,
+            steps: max_steps,
+            max_steps,
+            supports: RefCell::default(),
+            replaced: Vec::new(),
+            replacement: 0,
         }
+    }
+
+    fn step(&mut self) -> Result<(), Exhausted> {
+        self.steps = self.steps.checked_sub(1).ok_or(Exhausted::Steps { limit: self.max_steps })?;
+        Ok(())
     }
 
     /// How many nodes there are.
@@ -86,16 +128,16 @@ impl Manager {
     /// The function that is true when `variable` is.
     ///
     /// # Errors
-    /// [`NodeLimit`], as for every function that may make nodes.
-    pub fn variable(&mut self, variable: Variable) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`], as for every function that may make nodes.
+    pub fn variable(&mut self, variable: Variable) -> Result<Bdd, Exhausted> {
         self.node(variable, Bdd::FALSE, Bdd::TRUE)
     }
 
     /// The function that is true when `variable` has the value `value`.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn literal(&mut self, variable: Variable, value: bool) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn literal(&mut self, variable: Variable, value: bool) -> Result<Bdd, Exhausted> {
         if value { self.variable(variable) } else { self.node(variable, Bdd::TRUE, Bdd::FALSE) }
     }
 
@@ -113,40 +155,40 @@ impl Manager {
     /// The conjunction.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn and(&mut self, f: Bdd, g: Bdd) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn and(&mut self, f: Bdd, g: Bdd) -> Result<Bdd, Exhausted> {
         self.if_then_else(f.min(g), f.max(g), Bdd::FALSE)
     }
 
     /// The disjunction.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn or(&mut self, f: Bdd, g: Bdd) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn or(&mut self, f: Bdd, g: Bdd) -> Result<Bdd, Exhausted> {
         self.if_then_else(f.min(g), Bdd::TRUE, f.max(g))
     }
 
     /// The negation.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn not(&mut self, f: Bdd) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn not(&mut self, f: Bdd) -> Result<Bdd, Exhausted> {
         self.if_then_else(f, Bdd::FALSE, Bdd::TRUE)
     }
 
     /// Whether `g` is true wherever `f` is.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn implies(&mut self, f: Bdd, g: Bdd) -> Result<bool, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn implies(&mut self, f: Bdd, g: Bdd) -> Result<bool, Exhausted> {
         Ok(self.if_then_else(f, g, Bdd::TRUE)? == Bdd::TRUE)
     }
 
     /// `g` where `f` is true, `h` where it is not.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn if_then_else(&mut self, f: Bdd, mut g: Bdd, mut h: Bdd) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn if_then_else(&mut self, f: Bdd, mut g: Bdd, mut h: Bdd) -> Result<Bdd, Exhausted> {
         if g == f {
             g = Bdd::TRUE;
         }
@@ -168,6 +210,7 @@ impl Manager {
         if (a, b, c) == (f, g, h) {
             return Ok(known);
         }
+        self.step()?;
         let top = [f, g, h].map(|x| self.nodes[x.index()].variable).into_iter().min().expect("three arguments");
         let [(f0, f1), (g0, g1), (h0, h1)] = [f, g, h].map(|x| self.split(x, top));
         let low = self.if_then_else(f0, g0, h0)?;
@@ -181,14 +224,15 @@ impl Manager {
     /// `f` with every variable that `substitution` knows replaced by the function it gives.
     ///
     /// # Errors
-    /// [`NodeLimit`].
-    pub fn substitute(&mut self, f: Bdd, substitution: &mut Substitution) -> Result<Bdd, NodeLimit> {
+    /// [`Exhausted`].
+    pub fn substitute(&mut self, f: Bdd, substitution: &mut Substitution) -> Result<Bdd, Exhausted> {
         if f.is_constant() {
             return Ok(f);
         }
         if let Some(&known) = substitution.memo.get(&f) {
             return Ok(known);
         }
+        self.step()?;
         let Node { variable, low, high } = self.nodes[f.index()];
         let low = self.substitute(low, substitution)?;
         let high = self.substitute(high, substitution)?;
@@ -201,13 +245,55 @@ impl Manager {
         Ok(result)
     }
 
+    /// `f` with the variables of `values`, which are sorted, replaced by the functions beside them. As [`Manager::substitute`], for what is
+    /// asked once.
+    ///
+    /// # Errors
+    /// [`Exhausted`].
+    pub fn replace(&mut self, f: Bdd, values: &[(Variable, Bdd)]) -> Result<Bdd, Exhausted> {
+        if values.is_empty() {
+            return Ok(f);
+        }
+        self.replacement += 1;
+        self.replaced.resize(self.nodes.len(), (0, Bdd::FALSE));
+        self.replace_below(f, values)
+    }
+
+    fn replace_below(&mut self, f: Bdd, values: &[(Variable, Bdd)]) -> Result<Bdd, Exhausted> {
+        let Node { variable, low, high } = self.nodes[f.index()];
+        if values.last().is_none_or(|(last, _)| variable > *last) {
+            return Ok(f);
+        }
+        let (number, known) = self.replaced[f.index()];
+        if number == self.replacement {
+            return Ok(known);
+        }
+        self.step()?;
+        let low = self.replace_below(low, values)?;
+        let high = self.replace_below(high, values)?;
+        let condition = match values.binary_search_by_key(&variable, |(v, _)| *v) {
+            Ok(i) => values[i].1,
+            Err(_) => self.variable(variable)?,
+        };
+        let result = self.if_then_else(condition, high, low)?;
+        // Only nodes that were there before are replaced, so the place exists.
+        self.replaced[f.index()] = (self.replacement, result);
+        Ok(result)
+    }
+
     /// The variables on which `f` depends, in order.
-    pub fn support(&self, f: Bdd) -> Vec<Variable> {
-        let mut seen: Memo<Bdd, ()> = Memo::default();
+    pub fn support(&self, f: Bdd) -> Rc<[Variable]> {
+        let mut supports = self.supports.borrow_mut();
+        let Supports { known, seen, search } = &mut *supports;
+        if let Some(variables) = known.get(&f) {
+            return variables.clone();
+        }
+        *search += 1;
+        seen.resize(self.nodes.len(), 0);
         let mut variables = Vec::new();
         let mut open = vec![f];
         while let Some(g) = open.pop() {
-            if g.is_constant() || seen.insert(g, ()).is_some() {
+            if g.is_constant() || std::mem::replace(&mut seen[g.index()], *search) == *search {
                 continue;
             }
             let node = self.nodes[g.index()];
@@ -216,6 +302,8 @@ impl Manager {
         }
         variables.sort_unstable();
         variables.dedup();
+        let variables: Rc<[Variable]> = variables.into();
+        known.insert(f, variables.clone());
         variables
     }
 
@@ -233,7 +321,7 @@ impl Manager {
         if node.variable == variable { (node.low, node.high) } else { (f, f) }
     }
 
-    fn node(&mut self, variable: Variable, low: Bdd, high: Bdd) -> Result<Bdd, NodeLimit> {
+    fn node(&mut self, variable: Variable, low: Bdd, high: Bdd) -> Result<Bdd, Exhausted> {
         if low == high {
             return Ok(low);
         }
@@ -247,7 +335,7 @@ impl Manager {
             place = (place + 1) & mask;
         }
         if self.nodes.len() >= self.limit {
-            return Err(NodeLimit { limit: self.limit });
+            return Err(Exhausted::Nodes { limit: self.limit });
         }
         let index = self.nodes.len() as u32;
         self.nodes.push(Node { variable, low, high });
@@ -333,67 +421,4 @@ impl Hasher for WordHasher {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// A function of four variables as its table of 16 values, and the same as a diagram.
-    fn diagram(manager: &mut Manager, table: u16) -> Bdd {
-        let mut f = Bdd::FALSE;
-        for row in (0..16u32).filter(|row| table >> row & 1 == 1) {
-            let mut term = Bdd::TRUE;
-            for v in 0..4 {
-                let literal = manager.literal(v, row >> v & 1 == 1).unwrap();
-                term = manager.and(term, literal).unwrap();
-            }
-            f = manager.or(f, term).unwrap();
-        }
-        f
-    }
-
-    fn table(manager: &Manager, f: Bdd) -> u16 {
-        (0..16u16).fold(0, |all, row| all | u16::from(manager.evaluate(f, |v| row >> v & 1 == 1)) << row)
-    }
-
-    proptest! {
-        #[test]
-        fn operations_are_those_of_truth_tables(a: u16, b: u16, c: u16) {
-            let manager = &mut Manager::new(10_000);
-            let [f, g, h] = [a, b, c].map(|t| diagram(manager, t));
-            prop_assert_eq!(table(manager, f), a);
-            let and = manager.and(f, g).unwrap();
-            let or = manager.or(f, g).unwrap();
-            let not = manager.not(f).unwrap();
-            let ite = manager.if_then_else(f, g, h).unwrap();
-            prop_assert_eq!([and, or, not, ite].map(|x| table(manager, x)), [a & b, a | b, !a, a & b | !a & c]);
-            prop_assert_eq!(manager.implies(f, g).unwrap(), a & !b == 0);
-            prop_assert_eq!(f == g, a == b, "equal functions are equal indices");
-            let mut exchange = Substitution::default();
-            exchange.set(1, g);
-            let composed = manager.substitute(f, &mut exchange).unwrap();
-            let expected = (0..16u16).fold(0, |all, row| {
-                let moved = row & !2 | (b >> row & 1) << 1;
-                all | (a >> moved & 1) << row
-            });
-            prop_assert_eq!(table(manager, composed), expected);
-            for v in manager.support(f) {
-                prop_assert!((0..16u16).any(|row| a >> row & 1 != a >> (row ^ 1 << v) & 1));
-            }
-        }
-    }
-
-    #[test]
-    fn the_limit_is_kept() {
-        let manager = &mut Manager::new(20);
-        let mut parity = Bdd::FALSE;
-        let error = (0..100).find_map(|v| {
-            let x = manager.variable(v).and_then(|x| {
-                let not = manager.not(parity)?;
-                manager.if_then_else(x, not, parity)
-            });
-            x.map(|x| parity = x).err()
-        });
-        assert_eq!(error, Some(NodeLimit { limit: 20 }));
-        assert!(manager.len() <= 20);
-    }
-}
+mod tests;

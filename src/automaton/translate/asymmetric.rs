@@ -38,6 +38,9 @@ pub(super) fn targets(
             let id = guesses.as_co_safety(u, id, guess);
             u.raw(id)
         })?;
+        if all == Bdd::FALSE {
+            continue;
+        }
         let mut beside: Vec<NodeId> = Vec::new();
         for body in guesses.bodies(guess).1 {
             let body = guesses.as_co_safety(u, body, guess);

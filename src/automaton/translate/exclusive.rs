@@ -4,7 +4,7 @@
 //! which only the first of the group holds: every guard is composed with "the proposition holds and none before it in its group does".
 
 use super::options::{TranslateError, TranslateErrorKind};
-use crate::bdd::{Bdd, Manager, NodeLimit, Substitution, Variable};
+use crate::bdd::{Bdd, Exhausted, Manager, Substitution, Variable};
 use crate::labels::Propositions;
 
 /// The groups as lists of variables, each in the order of the alphabet. Names that the alphabet does not have are left out.
@@ -28,7 +28,7 @@ pub(super) fn groups(alphabet: &Propositions, named: &[Vec<String>]) -> Result<V
 }
 
 /// The letters in which at most one of each group holds.
-pub(super) fn letters(bdd: &mut Manager, groups: &[Vec<Variable>]) -> Result<Bdd, NodeLimit> {
+pub(super) fn letters(bdd: &mut Manager, groups: &[Vec<Variable>]) -> Result<Bdd, Exhausted> {
     let mut all = Bdd::TRUE;
     for group in groups {
         let mut sorted = group.clone();
@@ -46,7 +46,7 @@ pub(super) fn letters(bdd: &mut Manager, groups: &[Vec<Variable>]) -> Result<Bdd
 }
 
 /// What guards are composed with: each proposition of a group holds if it does and none before it in the group does.
-pub(super) fn first_holds(bdd: &mut Manager, groups: &[Vec<Variable>]) -> Result<Substitution, NodeLimit> {
+pub(super) fn first_holds(bdd: &mut Manager, groups: &[Vec<Variable>]) -> Result<Substitution, Exhausted> {
     let mut substitution = Substitution::default();
     for group in groups {
         let mut none_before = Bdd::TRUE;

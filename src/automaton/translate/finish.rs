@@ -7,7 +7,7 @@ use super::unfold::Unfolding;
 use crate::automaton::construct::{Gaps, LdgbaParts, MAX_SETS};
 use crate::automaton::guard::{Cube, Guard};
 use crate::automaton::ldgba::{Edge, Ldgba, Marks, StateId};
-use crate::bdd::{Bdd, Manager, Substitution};
+use crate::bdd::{Bdd, Exhausted, Manager, Substitution};
 use crate::labels::Propositions;
 
 /// The checked automaton. Letters without an edge lead to a sink.
@@ -15,13 +15,18 @@ pub(super) fn automaton(u: &mut Unfolding<'_>, graph: Graph, propositions: Propo
     if graph.sets > MAX_SETS {
         return Err(TranslateError::new(TranslateErrorKind::Sets { found: graph.sets }));
     }
-    let nodes = |limit| TranslateError::new(TranslateErrorKind::Nodes { limit });
-    let mut widened = first_holds(&mut u.bdd, &u.exclusive).map_err(|error| nodes(error.limit))?;
+    let exhausted = |error| {
+        TranslateError::new(match error {
+            Exhausted::Nodes { limit } => TranslateErrorKind::Nodes { limit },
+            Exhausted::Steps { limit } => TranslateErrorKind::Steps { limit },
+        })
+    };
+    let mut widened = first_holds(&mut u.bdd, &u.exclusive).map_err(exhausted)?;
     let mut edges = Vec::new();
     for state in &graph.states {
         let mut list = Vec::new();
         for edge in &state.edges {
-            let guard = guard(&mut u.bdd, edge.guard, &mut widened).map_err(|error| nodes(error.limit))?;
+            let guard = guard(&mut u.bdd, edge.guard, &mut widened).map_err(exhausted)?;
             list.push((guard, Edge { target: edge.target as StateId, marks: Marks(edge.marks as u32) }));
         }
         edges.push(list);
@@ -38,7 +43,7 @@ pub(super) fn automaton(u: &mut Unfolding<'_>, graph: Graph, propositions: Propo
 }
 
 /// A diagram over propositions as disjoint cubes, one for every path to `true`.
-fn guard(bdd: &mut Manager, f: Bdd, widened: &mut Substitution) -> Result<Guard, crate::bdd::NodeLimit> {
+fn guard(bdd: &mut Manager, f: Bdd, widened: &mut Substitution) -> Result<Guard, Exhausted> {
     let f = bdd.substitute(f, widened)?;
     let mut cubes = Vec::new();
     let mut open = vec![(f, Cube::ANY)];

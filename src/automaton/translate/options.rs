@@ -30,14 +30,16 @@ pub struct Budget {
     pub states: usize,
     /// How many nodes of decision diagrams may be made in all (about 40 bytes each).
     pub nodes: usize,
+    /// How many steps of recursion decision diagrams may take in all.
+    pub steps: u64,
     /// How many fixpoint subformulas may be guessed about: each doubles the number of ε-jumps that are tried.
     pub guesses: usize,
 }
 
 impl Default for Budget {
-    /// 20 000 states, 1 000 000 nodes, 14 guesses: at most a few seconds.
+    /// 20 000 states, 1 million nodes, 30 million steps, 14 guesses: at most a few seconds.
     fn default() -> Budget {
-        Budget { states: 20_000, nodes: 1_000_000, guesses: 14 }
+        Budget { states: 20_000, nodes: 1_000_000, steps: 30_000_000, guesses: 14 }
     }
 }
 
@@ -71,6 +73,11 @@ pub enum TranslateErrorKind {
     Nodes {
         /// The limit.
         limit: usize,
+    },
+    /// [`Budget::steps`] was used up.
+    Steps {
+        /// The limit.
+        limit: u64,
     },
     /// More fixpoint subformulas than [`Budget::guesses`] would have to be guessed about.
     Guesses {
@@ -109,6 +116,11 @@ impl TranslateError {
         TranslateError { kind, subformula: None }
     }
 
+    /// The same, with the part of the formula that was worked on.
+    pub(super) fn at(self, subformula: Option<String>) -> TranslateError {
+        TranslateError { subformula, ..self }
+    }
+
     /// What went wrong.
     pub fn kind(&self) -> &TranslateErrorKind {
         &self.kind
@@ -126,6 +138,9 @@ impl fmt::Display for TranslateError {
             TranslateErrorKind::States { limit } => write!(f, "the translation needs more than the {limit} states allowed")?,
             TranslateErrorKind::Nodes { limit } => {
                 write!(f, "the translation needs more than the {limit} diagram nodes allowed")?
+            }
+            TranslateErrorKind::Steps { limit } => {
+                write!(f, "the translation needs more than the {limit} steps on diagrams allowed")?;
             }
             TranslateErrorKind::Guesses { found, limit } => {
                 write!(f, "the translation has to guess about {found} subformulas; at most {limit} are allowed")?;

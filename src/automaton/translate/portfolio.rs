@@ -25,7 +25,8 @@ fn size(graph: &Graph, prefer: Preference) -> (bool, usize, usize, usize, usize)
 /// The best attempt so far, and why others failed.
 struct Best {
     graph: Option<Graph>,
-    stop: Option<Stop>,
+    /// The first failure, and the subformula it happened at.
+    stop: Option<(Stop, NodeId)>,
 }
 
 impl Best {
@@ -35,7 +36,7 @@ impl Best {
         match attempt {
             Err(Stop::Cancelled) => return Err(Stop::Cancelled),
             Err(stop) => {
-                self.stop.get_or_insert(stop);
+                self.stop.get_or_insert((stop, u.focus));
             }
             Ok(graph) => {
                 if self.graph.as_ref().is_none_or(|best| size(&graph, u.prefer) < size(best, u.prefer)) {
@@ -51,8 +52,14 @@ impl Best {
         self.graph.as_ref().is_some_and(|graph| graph.states.len() == 1 && graph.jumps() == 0)
     }
 
-    fn result(self) -> Result<Graph, Stop> {
-        self.graph.ok_or(self.stop.unwrap_or(Stop::States))
+    fn result(self, u: &mut Unfolding<'_>) -> Result<Graph, Stop> {
+        self.graph.ok_or_else(|| match self.stop {
+            Some((stop, focus)) => {
+                u.focus = focus;
+                stop
+            }
+            None => unreachable!("every attempt either succeeds or fails"),
+        })
     }
 }
 
@@ -68,6 +75,7 @@ fn allowance(u: &Unfolding<'_>, best: &Best) -> usize {
 /// The smallest automaton that any of the constructions gives for `formula`.
 pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, Stop> {
     let mut best = Best { graph: None, stop: None };
+    u.focus = formula;
     let parts = conjuncts(u, formula);
     let (easy, hard): (Vec<NodeId>, Vec<NodeId>) = parts.iter().partition(|id| u.store.traits(**id).pi <= 2);
     if hard.is_empty() {
@@ -75,7 +83,7 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
         let attempt = deterministic(u, &parts);
         best.offer(u, attempt)?;
         if best.is_minimal() {
-            return best.result();
+            return best.result(u);
         }
         for renewal in [Renewal::Raw, Renewal::Unfolded] {
             u.work.start_attempt(allowance(u, &best), 0);
@@ -91,9 +99,10 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
             product(u, &beside, &rest)
         });
         best.offer(u, attempt)?;
+        u.focus = formula;
     }
     if best.is_minimal() {
-        return best.result();
+        return best.result(u);
     }
     // Whether several recurrences that need memory stand beside one another: only then can a round robin be smaller.
     let mut has_memory = false;
@@ -119,7 +128,7 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
         });
         best.offer(u, attempt)?;
     }
-    best.result()
+    best.result(u)
 }
 
 fn conjuncts(u: &Unfolding<'_>, formula: NodeId) -> Vec<NodeId> {
@@ -135,6 +144,7 @@ fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId]) -> Result<Graph, Stop>
     let mut safe = Bdd::TRUE;
     let mut pieces = Vec::new();
     for &part in parts {
+        u.focus = part;
         let raw = u.raw(part)?;
         let traits = u.store.traits(part);
         if traits.is_safety() {
@@ -149,7 +159,7 @@ fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId]) -> Result<Graph, Stop>
                 let attempt = breakpoint(u, raw, renewal);
                 best.offer(u, attempt)?;
             }
-            pieces.push(best.result()?);
+            pieces.push(best.result(u)?);
         }
     }
     let mut all = if safe == Bdd::TRUE { trivial(u)? } else { safety(u, safe)? };

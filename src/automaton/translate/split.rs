@@ -10,7 +10,7 @@ use super::symmetric::{keys, one, subsets};
 use super::target::{Target, undominated};
 use super::unfold::Unfolding;
 use super::work::Stop;
-use crate::bdd::{Bdd, Substitution, Variable};
+use crate::bdd::{Bdd, Variable};
 use std::collections::BTreeSet;
 
 /// The largest number of pieces of one jump.
@@ -42,20 +42,20 @@ fn pieces(u: &mut Unfolding<'_>, all: Bdd) -> Result<Vec<Bdd>, Stop> {
     if clauses.len() > MOST {
         return Ok(vec![all]);
     }
-    let atoms: Vec<Variable> = u.bdd.support(all).into_iter().filter(|v| !u.is_proposition(*v)).collect();
+    let atoms: Vec<Variable> = u.bdd.support(all).iter().copied().filter(|v| !u.is_proposition(*v)).collect();
     let mut found = Vec::new();
     for clause in clauses {
-        let mut chosen = Substitution::default();
+        let mut chosen = Vec::new();
         let mut piece = Bdd::TRUE;
         for &atom in &atoms {
             let is_chosen = clause.contains(&atom);
-            chosen.set(atom, if is_chosen { Bdd::TRUE } else { Bdd::FALSE });
+            chosen.push((atom, if is_chosen { Bdd::TRUE } else { Bdd::FALSE }));
             if is_chosen {
                 let literal = u.bdd.variable(atom)?;
                 piece = u.bdd.and(piece, literal)?;
             }
         }
-        let now = u.bdd.substitute(all, &mut chosen)?;
+        let now = u.bdd.replace(all, &chosen)?;
         found.push(u.bdd.and(now, piece)?);
     }
     Ok(found)

@@ -35,7 +35,8 @@ pub fn translate_unless(
     let attempt = portfolio::smallest(&mut u, root).and_then(|graph| state_based_if_wanted(&mut u, graph, options.acceptance));
     let graph = match attempt {
         Ok(graph) => graph,
-        Err(stop) => return Err(explained(stop, options)),
+        Err(Stop::Cancelled) => return Err(explained(Stop::Cancelled, options)),
+        Err(stop) => return Err(explained(stop, options).at(u.focused())),
     };
     finish::automaton(&mut u, graph, names)
 }
@@ -74,6 +75,7 @@ fn explained(stop: Stop, options: &TranslateOptions) -> TranslateError {
     TranslateError::new(match stop {
         Stop::States => TranslateErrorKind::States { limit: budget.states },
         Stop::Nodes => TranslateErrorKind::Nodes { limit: budget.nodes },
+        Stop::Steps => TranslateErrorKind::Steps { limit: budget.steps },
         Stop::Guesses(found) => TranslateErrorKind::Guesses { found, limit: budget.guesses },
         Stop::Sets(found) => TranslateErrorKind::Sets { found },
         Stop::Cancelled => TranslateErrorKind::Cancelled,

@@ -30,6 +30,8 @@ pub(super) struct Unfolding<'a> {
     pub letters: Bdd,
     /// Which of several automata is best.
     pub prefer: Preference,
+    /// The subformula that is being translated, for error messages.
+    pub focus: NodeId,
     /// Groups of propositions of which at most one holds.
     pub exclusive: Vec<Vec<Variable>>,
     /// How many propositions there are; variable i < `propositions` is proposition i, the others are nx(·).
@@ -40,6 +42,8 @@ pub(super) struct Unfolding<'a> {
     raw: Memo<usize, Bdd>,
     unfolded: Memo<usize, Bdd>,
     replacement: Substitution,
+    /// Raw diagrams already unfolded.
+    raw_unfolded: Memo<Bdd, Bdd>,
     steps: Memo<Bdd, Rc<[Step]>>,
     /// Per unfolded diagram, the first raw diagram it came from: the formula that names the state.
     origins: Memo<Bdd, Bdd>,
@@ -49,7 +53,7 @@ impl<'a> Unfolding<'a> {
     /// For formulas of `store`, whose list of names is complete.
     pub fn new(store: Store, work: Work<'a>) -> Unfolding<'a> {
         let propositions = store.names().len() as Variable;
-        let bdd = Manager::new(work.budget().nodes);
+        let bdd = Manager::with_limits(work.budget().nodes, work.budget().steps);
         Unfolding {
             store,
             simplifier: Simplifier::default(),
@@ -57,6 +61,7 @@ impl<'a> Unfolding<'a> {
             work,
             letters: Bdd::TRUE,
             prefer: Preference::default(),
+            focus: NodeId::TRUE,
             exclusive: Vec::new(),
             propositions,
             atoms: Vec::new(),
@@ -64,6 +69,7 @@ impl<'a> Unfolding<'a> {
             raw: Memo::default(),
             unfolded: Memo::default(),
             replacement: Substitution::default(),
+            raw_unfolded: Memo::default(),
             steps: Memo::default(),
             origins: Memo::default(),
         }
@@ -162,7 +168,10 @@ impl<'a> Unfolding<'a> {
 
     /// `f` with every nx(ψ) replaced by unf(ψ).
     pub fn unfold_raw(&mut self, f: Bdd) -> Result<Bdd, Stop> {
-        for variable in self.bdd.support(f) {
+        if let Some(&known) = self.raw_unfolded.get(&f) {
+            return Ok(known);
+        }
+        for &variable in self.bdd.support(f).iter() {
             if variable >= self.propositions && !self.replacement.has(variable) {
                 let value = self.unfold(self.atom(variable))?;
                 self.replacement.set(variable, value);
@@ -170,6 +179,7 @@ impl<'a> Unfolding<'a> {
         }
         let unfolded = self.bdd.substitute(f, &mut self.replacement)?;
         self.origins.entry(unfolded).or_insert(f);
+        self.raw_unfolded.insert(f, unfolded);
         Ok(unfolded)
     }
 
@@ -180,19 +190,18 @@ impl<'a> Unfolding<'a> {
 
     /// The ψ of all nx(ψ) on which `f` depends, in the order of the variables.
     pub fn atoms(&self, f: Bdd) -> Vec<NodeId> {
-        self.bdd.support(f).into_iter().filter(|v| *v >= self.propositions).map(|v| self.atom(v)).collect()
+        self.bdd.support(f).iter().filter(|v| **v >= self.propositions).map(|v| self.atom(*v)).collect()
     }
 
     /// `f` with every nx(ψ) replaced by the diagram that `value` gives for ψ.
     pub fn replace(&mut self, f: Bdd, mut value: impl FnMut(&mut Self, NodeId) -> Result<Bdd, Stop>) -> Result<Bdd, Stop> {
-        let mut substitution = Substitution::default();
-        for variable in self.bdd.support(f) {
+        let mut values = Vec::new();
+        for &variable in self.bdd.support(f).iter() {
             if variable >= self.propositions {
-                let by = value(self, self.atom(variable))?;
-                substitution.set(variable, by);
+                values.push((variable, value(self, self.atom(variable))?));
             }
         }
-        Ok(self.bdd.substitute(f, &mut substitution)?)
+        Ok(self.bdd.replace(f, &values)?)
     }
 
     /// The raw successors of the state `f`, each with the letters that lead there; letters that lead to `false` or cannot occur are left out.
@@ -274,6 +283,13 @@ impl<'a> Unfolding<'a> {
             }
         }
         Ok(assumed)
+    }
+
+    /// The subformula in focus as text, shortened if it is long.
+    pub fn focused(&self) -> Option<String> {
+        let text = self.store.formula(self.focus, 10 * LONGEST_NAME)?.to_string();
+        let short: String = text.chars().take(2 * LONGEST_NAME).collect();
+        Some(if short.len() < text.len() { format!("{short} …") } else { short })
     }
 
     /// Whether `variable` stands for a proposition.

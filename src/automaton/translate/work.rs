@@ -1,7 +1,7 @@
 //! Counting the work of a translation, so that it ends in time: states, nodes, and a caller's wish to stop.
 
 use super::options::Budget;
-use crate::bdd::NodeLimit;
+use crate::bdd::Exhausted;
 
 /// Why an attempt was given up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -10,6 +10,8 @@ pub(super) enum Stop {
     States,
     /// The budget of diagram nodes.
     Nodes,
+    /// The budget of steps.
+    Steps,
     /// Too many fixpoints to guess about.
     Guesses(usize),
     /// Too many accepting sets.
@@ -18,9 +20,12 @@ pub(super) enum Stop {
     Cancelled,
 }
 
-impl From<NodeLimit> for Stop {
-    fn from(_: NodeLimit) -> Stop {
-        Stop::Nodes
+impl From<Exhausted> for Stop {
+    fn from(exhausted: Exhausted) -> Stop {
+        match exhausted {
+            Exhausted::Nodes { .. } => Stop::Nodes,
+            Exhausted::Steps { .. } => Stop::Steps,
+        }
     }
 }
 
