@@ -61,6 +61,9 @@ fn budgets_end_in_an_error_that_names_the_limit() {
     assert!(states.to_string().contains("more than the 30 states allowed"), "{states}");
     let nodes = translate(&hard, &with(Budget { nodes: 50, ..Budget::default() })).unwrap_err();
     assert_eq!(nodes.kind(), &TranslateErrorKind::Nodes { limit: 50 });
+    assert!(nodes.subformula().is_some_and(|part| hard.propositions().iter().any(|name| part.contains(name))), "{nodes}");
+    let steps = translate(&hard, &with(Budget { steps: 50, ..Budget::default() })).unwrap_err();
+    assert_eq!(steps.kind(), &TranslateErrorKind::Steps { limit: 50 });
     let guesses = Formula::parse("(G F a | F G b) & (G F c | F G d)").unwrap();
     let guesses = translate(&guesses, &with(Budget { guesses: 1, ..Budget::default() })).unwrap_err();
     assert_eq!(guesses.kind(), &TranslateErrorKind::Guesses { found: 2, limit: 1 });
