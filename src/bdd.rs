@@ -4,9 +4,11 @@
 //! variables may be used at any time. Nothing is ever freed: a [`Manager`] lives as long as one translation, and limits on its nodes and on its
 //! steps bound its space and its time.
 
+mod memo;
+
+pub use memo::{Memo, WordHasher};
+
 use std::cell::RefCell;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 use std::rc::Rc;
 
 /// A function of Boolean variables, as an index into its [`Manager`]. Two functions of one manager are equal exactly if the indices are.
@@ -387,37 +389,6 @@ impl Substitution {
 fn hash(a: u32, b: u32, c: u32) -> u32 {
     let mixed = (u64::from(a) ^ u64::from(b).rotate_left(21) ^ u64::from(c).rotate_left(42)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     (mixed >> 32) as u32
-}
-
-/// A map from small numbers with a fast hash that is the same on every target and in every run.
-pub type Memo<K, V> = HashMap<K, V, BuildHasherDefault<WordHasher>>;
-
-/// Multiplies and rotates: good enough for indices, and without a random key.
-#[derive(Clone, Copy, Default)]
-pub struct WordHasher(u64);
-
-impl Hasher for WordHasher {
-    fn finish(&self) -> u64 {
-        self.0 ^ self.0 >> 29
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.write_u64(u64::from(*byte));
-        }
-    }
-
-    fn write_u32(&mut self, word: u32) {
-        self.write_u64(u64::from(word));
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    }
-
-    fn write_usize(&mut self, word: usize) {
-        self.write_u64(word as u64);
-    }
 }
 
 #[cfg(test)]

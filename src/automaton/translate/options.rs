@@ -37,9 +37,9 @@ pub struct Budget {
 }
 
 impl Default for Budget {
-    /// 20 000 states, 1 million nodes, 30 million steps, 14 guesses: at most a few seconds.
+    /// 20 000 states, 1 million nodes, 10 million steps, 14 guesses: at most a few seconds.
     fn default() -> Budget {
-        Budget { states: 20_000, nodes: 1_000_000, steps: 30_000_000, guesses: 14 }
+        Budget { states: 20_000, nodes: 1_000_000, steps: 10_000_000, guesses: 14 }
     }
 }
 
