@@ -124,7 +124,7 @@ test('φ_B1 is learned in the page: at least one round in greedy episodes, withi
 });
 
 test('the page keeps painting while it trains', async () => {
-  const { page, context } = await visit(site, { hash: '#preset=paper' });
+  const { page, context } = await visit(site, { hash: '#preset=paper&set=training.episodes=0' });
   await page.click('#train');
   await page.waitForTimeout(1500);
   const rate = await page.evaluate(() => new Promise((resolve) => {
