@@ -116,6 +116,8 @@ pub struct Description {
     pub automaton: Graph,
     /// The automaton in the HOA format.
     pub hoa: String,
+    /// Whether visited automaton states are kept track of: without shaping T_Φ means nothing.
+    pub shaping: bool,
     /// The modules' names.
     pub modules: Vec<String>,
     /// The hyper-parameters in force.

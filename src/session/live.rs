@@ -10,7 +10,7 @@ use super::refusal::{Refusal, Subject};
 use super::trial::{Trial, TrialProgress};
 use super::{FormulaFacts, builtin};
 use crate::agent::Replays;
-use crate::automaton::{EmbeddedState, StateId};
+use crate::automaton::{EmbeddedState, StateId, StateTracking};
 use crate::ltl::Formula;
 use crate::rng::{Purpose, Rng};
 use crate::task::{Setup, TaskError};
@@ -148,6 +148,7 @@ impl Session {
             environment,
             automaton: self.setup.automaton().graph(),
             hoa: self.hoa.clone(),
+            shaping: product.embedding().tracking() == StateTracking::On,
             modules: (0..modules.len()).map(|m| modules.name(m).to_owned()).collect(),
             settings: settings(&preset).into_iter().filter(|s| s.key != "description").collect(),
             seed: self.seed,

@@ -41,6 +41,7 @@
  * @property {{ name: string, dt: number, state: Channel[], action: Channel[], propositions: Proposition[], scene: Scene }} environment
  * @property {AutomatonGraph} automaton
  * @property {string} hoa
+ * @property {boolean} shaping   whether visits are shaped: T_Φ means something then
  * @property {string[]} modules
  * @property {Setting[]} settings
  * @property {number} seed

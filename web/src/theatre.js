@@ -99,7 +99,7 @@ export class Theatre {
     this.frontier.show(description.automaton);
     this.reward.show(description.automaton);
     this.timeline.show(description);
-    setText(byId('stage-title', HTMLElement), description.task.title);
+    byId('automaton-panel', HTMLElement).classList.toggle('unshaped', !description.shaping);
     this.automaton.show(description.automaton).then(() => this.refresh()).catch((error) => {
       this.automatonRoot.replaceChildren(element('p', { className: 'note' }, `The automaton could not be drawn: ${error}`));
     });

@@ -167,6 +167,11 @@ function stop() {
   rate = 0;
 }
 
+/** One step of training; a periodic evaluation that is going on is played to its end first. @param {Session} open */
+function stepOnce(open) {
+  while (open.advance(1) === 0);
+}
+
 /** @param {() => void} advance */
 function single(advance) {
   stop();
@@ -211,13 +216,13 @@ function obey(command) {
       if (session) sendTelemetry();
       return null;
     case 'step':
-      single(() => present().advance(1));
+      single(() => stepOnce(present()));
       return null;
     case 'episode':
       single(() => {
         const open = present();
         const counters = /** @type {Frame} */ (frame);
-        do open.advance(1);
+        do stepOnce(open);
         while (counters.at(open.frame(), 0).number('end') === END.running);
       });
       return null;

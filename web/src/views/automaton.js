@@ -18,8 +18,11 @@ const PLACE = '\u25CF';
 /** A label in the signs of logic. @param {string} label */
 export const logical = (label) => label.replaceAll('!', '¬').replaceAll('&', '∧').replaceAll('|', '∨').replace(/^true$/, '⊤');
 
-/** Long labels are broken at their disjunctions. @param {string} label */
-const broken = (label) => (label.length > 24 ? label.split(' ∨ ').join(' ∨\n') : label);
+/** Long labels are broken at their disjunctions, and longer ones at their conjunctions too. @param {string} label */
+function broken(label) {
+  const parts = label.length > 18 ? label.split(' ∨ ') : [label];
+  return parts.map((part) => (part.length > 18 ? part.split(' ∧ ').join(' ∧\n') : part)).join(' ∨\n');
+}
 
 /**
  * The graph in DOT. Nodes have the ids `q0 …`, edges `e0 …`; letters are measured as those of a fixed-width font.

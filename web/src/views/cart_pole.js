@@ -90,7 +90,7 @@ export class CartPole {
     context.fillRect(left, 0, right - left, floor);
     context.globalAlpha = 1;
     context.fillRect(left, floor, right - left, holds && !isUnsafe(name) ? 10 : 6);
-    nameTag(context, (left + right) / 2, Math.min(floor + 22, height - 10), name, colours);
+    nameTag(context, Math.max(32, Math.min(width - 32, (left + right) / 2)), Math.min(floor + 22, height - 10), name, colours);
   }
 
   /** The lean within which the pole is safe, where the scene says so. @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {number} length @param {Colours} colours */

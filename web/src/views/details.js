@@ -27,7 +27,7 @@ export class Modules {
     const text = JSON.stringify(rows);
     if (text === this.last) return;
     this.last = text;
-    this.root.replaceChildren(table(['module', 'visits', 'replay', 'updates', 'critic loss', 'actor loss'], rows));
+    this.root.replaceChildren(table(['module', 'visits', 'replay', 'updates', 'critic', 'actor'], rows));
   }
 }
 
@@ -43,13 +43,21 @@ export class Settings {
 
   /** @param {Setting[]} settings @param {Record<string, string>} overrides */
   show(settings, overrides) {
-    const row = (/** @type {Setting} */ { key, value }) => {
+    /** @type {HTMLTableRowElement[]} */
+    const rows = [];
+    let section = '';
+    const sectionOf = (/** @type {Setting} */ { key }) => key.slice(0, key.lastIndexOf('.'));
+    for (const { key, value } of [...settings].sort((a, b) => sectionOf(a).localeCompare(sectionOf(b)))) {
+      const at = key.lastIndexOf('.');
+      if (key.slice(0, at) !== section) {
+        section = key.slice(0, at);
+        rows.push(element('tr', {}, element('th', { scope: 'colgroup', colSpan: 2 }, section.replaceAll('.', ' › '))));
+      }
       const input = element('input', { type: 'text', value, spellcheck: false, autocomplete: 'off', 'aria-label': key, className: key in overrides ? 'changed' : '' });
       input.addEventListener('change', () => this.change(key, input.value.trim()));
-      const at = key.indexOf('.') + 1;
-      return [element('span', { title: key }, element('span', { className: 'soft' }, key.slice(0, at)), key.slice(at)), input];
-    };
-    this.root.replaceChildren(table(['key', 'value'], settings.map(row)));
+      rows.push(element('tr', {}, element('td', {}, key.slice(at + 1)), element('td', {}, input)));
+    }
+    this.root.replaceChildren(element('table', {}, element('tbody', {}, ...rows)));
   }
 }
 

@@ -90,7 +90,7 @@ export class Spec {
     formula.addEventListener('input', () => this.soon(() => this.checkFormula()));
     formula.addEventListener('scroll', () => (mirror.scrollLeft = formula.scrollLeft));
     formula.addEventListener('keydown', (event) => {
-      if (event.key === 'Enter' && !apply.disabled) actions.useFormula(formula.value);
+      if (event.key === 'Enter') this.useWhatStands();
       if (event.key === 'Escape') this.putFormula(this.opened);
     });
     apply.addEventListener('click', () => actions.useFormula(formula.value));
@@ -146,6 +146,13 @@ export class Spec {
   putFormula(text) {
     this.places.formula.value = text;
     return this.checkFormula();
+  }
+
+  /** Uses the formula that stands in the field, if it is one and another than the open one. */
+  async useWhatStands() {
+    clearTimeout(this.timer);
+    await this.checkFormula();
+    if (!this.places.apply.disabled) this.actions.useFormula(this.places.formula.value);
   }
 
   async checkFormula() {

@@ -128,6 +128,7 @@ export class Session {
         ].map((edge) => ({ ...edge, kind: /** @type {const} */ ('letter') })),
       },
       hoa: 'HOA: v1\n',
+      shaping: true,
       modules: ['q0', 'q1'],
       settings: [{ key: 'algorithm.discount', value: '0.9999' }],
       seed: Number(this.request.seed),

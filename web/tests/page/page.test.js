@@ -96,6 +96,41 @@ test('an automaton file is read, refused at its place, dropped and used', async 
   await context.close();
 });
 
+test('a formula of one’s own becomes an automaton and is trained on', async () => {
+  const { page, context, problems } = await visit(site);
+  const before = await page.getAttribute('#automaton svg', 'aria-label');
+  await page.fill('#formula', 'F (r2 & X F r1)');
+  await page.waitForSelector('#formula-apply:not([disabled])');
+  await page.press('#formula', 'Enter');
+  await page.waitForFunction(() => location.hash.includes('formula='));
+  await page.waitForFunction((old) => document.querySelector('#automaton svg')?.getAttribute('aria-label') !== old, before);
+  assert.match(await page.inputValue('#hoa'), /^HOA: v1/);
+  await page.click('#train');
+  await page.waitForFunction(() => Number(document.getElementById('n-episodes')?.textContent?.replaceAll(',', '')) > 2);
+  await page.fill('#formula', 'G F r1 & G F nowhere');
+  await page.press('#formula', 'Enter');
+  await page.waitForSelector('#formula[aria-invalid=true]');
+  assert.match((await page.textContent('#formula-said')) ?? '', /nowhere/);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('a hyper-parameter is changed, undone, and refused with a reason', async () => {
+  const { page, context, problems } = await visit(site);
+  await page.fill('input[aria-label="learner.n_step"]', '3');
+  await page.press('input[aria-label="learner.n_step"]', 'Enter');
+  await page.waitForFunction(() => decodeURIComponent(location.hash).includes('learner.n_step=3'));
+  assert.equal(await page.inputValue('input[aria-label="learner.n_step"]'), '3');
+  await page.fill('input[aria-label="learner.tau"]', '7');
+  await page.press('input[aria-label="learner.tau"]', 'Enter');
+  await page.waitForSelector('.notice.problem');
+  assert.match((await page.textContent('.notice.problem')) ?? '', /tau/);
+  await page.click('#settings-own');
+  await page.waitForFunction(() => !location.hash.includes('n_step'));
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test('φ_B1 is learned in the page: at least one round in greedy episodes, within the steps that are enough natively', async () => {
   const { page, context, problems } = await visit(site, { hash: '#seed=1' });
   const began = Date.now();
