@@ -61,14 +61,13 @@ impl OpenRequest {
         let preset = self.preset.as_deref().unwrap_or(&presets[0]);
         let change = |(path, value): (&String, &String)| Override { path: path.clone(), value: value.clone() };
         let overrides: Vec<Override> = self.overrides.iter().map(change).collect();
-        let alone = self.formula.is_some() && hoa_text.is_none();
+        task.preset(preset, &overrides).map_err(task_refusal)?;
+        // The recipe is sound, so what goes wrong from here on is due to what the user brought. Its place in the task file says nothing.
         let setup = Setup::open(task, preset, &overrides, hoa_text).map_err(|error| {
-            let about_hoa = hoa_text.is_some_and(|text| error.text() == text);
             let refusal = task_refusal(error);
-            match (about_hoa, alone && refusal.place.line > 0) {
-                (true, _) => Refusal { subject: Subject::Hoa, ..refusal },
-                // Of a formula that came alone, what goes wrong with it is the formula's; its place in the task file says nothing.
-                (_, true) => Refusal { subject: Subject::Formula, place: Place::default(), ..refusal },
+            match (&self.hoa, &self.formula) {
+                (Some(_), _) => Refusal { subject: Subject::Hoa, place: Place::default(), ..refusal },
+                (_, Some(_)) => Refusal { subject: Subject::Formula, place: Place::default(), ..refusal },
                 _ => refusal,
             }
         })?;
