@@ -48,10 +48,11 @@ fn every_task_opens_and_ticks_in_every_preset() {
         }
         for preset in &presets {
             // Learning sooner than the recipe, so that its updates are seen as well.
-            let overrides = ["learner.exploration.warm_up=20", "learner.batch=8"].map(|o| o.parse().unwrap());
+            let small = ["learner.exploration.warm_up=20", "learner.batch=8", "learner.hidden=[8]"];
+            let overrides = small.map(|o| o.parse().unwrap());
             let setup = open(name, text, preset, &overrides).unwrap_or_else(|e| panic!("{e}"));
             let mut trainer = setup.trainer(1);
-            let ticks: Vec<_> = trainer.ticks().take(200).collect();
+            let ticks: Vec<_> = trainer.ticks().take(100).collect();
             assert!(ticks.iter().any(|t| t.update.is_some()), "{name} {preset} never learns");
             for pair in ticks.windows(2) {
                 let ended = pair[0].end.is_some();
@@ -227,6 +228,5 @@ fn without_a_file_the_formula_is_translated() {
         let text: String = text.lines().filter(|l| !l.starts_with("hoa = ")).map(|l| format!("{l}\n")).collect();
         let setup = open(&name, &text, "fast", &[]).unwrap_or_else(|e| panic!("{e}"));
         assert!(setup.automaton().len() > 1, "{name}");
-        assert_eq!(setup.trainer(1).ticks().take(50).count(), 50, "{name}");
     }
 }
