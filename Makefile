@@ -59,11 +59,11 @@ test-wasm: ## the WebAssembly module under Node
 .PHONY: test-web
 test-web: wasm ## the page's modules: types and units
 	@cd web && npx tsc --noEmit
-	@cd web && node --test tests/unit/
+	@cd web && node --test --test-reporter=spec tests/unit/
 
 .PHONY: test-page
 test-page: page ## the page in Chromium
-	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node --test tests/page/
+	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node --test --test-reporter=spec tests/page/
 
 # --- measuring ------------------------------------------------------------------------------------------------------------
 

@@ -3,5 +3,6 @@
 mod translate {
     pub mod language;
     pub mod options;
+    pub mod references;
     pub mod words;
 }
