@@ -69,4 +69,11 @@ test-page: page ## the page in Chromium
 
 .PHONY: bench
 bench: ## speed of the kernels, native and WebAssembly, as ratios in one run
-	@$(ENV) cargo bench --features burn
+	@$(ENV) with_wasm cargo build --quiet --release --no-default-features --target wasm32-unknown-unknown --example kernels_wasm
+	@$(ENV) LTL_ROVER_WASM=$$CARGO_TARGET_DIR/wasm32-unknown-unknown/release/examples/kernels_wasm.wasm cargo bench --features burn --bench kernels
+
+.PHONY: bench-peers
+bench-peers: ## the same work in PyTorch and Stable-Baselines3, from PyPI (large)
+	@$(ENV) python3 -m venv $$LTL_ROVER_CACHE/peers
+	@$(ENV) $$LTL_ROVER_CACHE/peers/bin/pip install --quiet -r benches/peers/requirements.txt
+	@$(ENV) $$LTL_ROVER_CACHE/peers/bin/python benches/peers/peers.py

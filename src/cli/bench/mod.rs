@@ -18,18 +18,18 @@ use std::time::Instant;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   ltl-rover bench
-  ltl-rover bench --rounds 15 --json
+  ltl-rover bench --rounds 101 --json
   ltl-rover bench --wasm target/wasm32-unknown-unknown/release/examples/kernels_wasm.wasm
 
-The contenders take turns, round after round, each for a fixed share of a second; the table shows the median and the best round.
+The contenders take turns, round after round, each for a few milliseconds; the table shows the median and the best round.
 The bound is the time that the matrix products of an update take at the measured rate of multiply-adds of one core.
 `make bench` builds everything that takes part: burn's two backends and the WebAssembly module.")]
 pub struct Bench {
     /// Rounds; each contender computes every measure once in each.
-    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, default_value_t = 31, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
     /// Milliseconds of each measure in each round.
-    #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     milliseconds: u32,
     /// The kernel's WebAssembly build, to be run by Node.
     #[arg(long, value_name = "FILE")]
