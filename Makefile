@@ -54,7 +54,7 @@ test-learning: ## kernels against burn, and learning, in release
 
 .PHONY: test-wasm
 test-wasm: ## the WebAssembly module under Node
-	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary --test golden_trace
+	@$(ENV) with_wasm wasm-pack test --node --release -- --no-default-features --features wasm --test boundary --test kernels_wasm --test golden_trace
 
 .PHONY: test-web
 test-web: wasm ## the page's modules: types and units
