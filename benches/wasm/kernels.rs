@@ -62,7 +62,8 @@ pub extern "C" fn steps(_trainer: usize, count: usize) -> f64 {
 pub extern "C" fn prepare_step_update() -> usize {
     let weights: Vec<Vec<usize>> = TRAINER.with_borrow(|trainer| {
         let policy = trainer.as_ref().expect("`prepare_trainer` comes first").learner().policy();
-        policy[0].iter().filter(|tensor| tensor.name.ends_with(".weight")).map(|tensor| tensor.shape.clone()).collect()
+        let actor = policy[0].iter().filter(|tensor| tensor.name.starts_with("actor.") && tensor.name.ends_with(".weight"));
+        actor.map(|tensor| tensor.shape.clone()).collect()
     });
     prepare(weights[0][0], weights[weights.len() - 1][1], weights[0][1], 64)
 }

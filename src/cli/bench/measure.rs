@@ -167,8 +167,8 @@ impl Contender for Native {
 /// The networks that a trainer's modules have.
 fn module_shape(trainer: &Trainer) -> NetworkShape {
     let policy = trainer.learner().policy();
-    let weights: Vec<_> =
-        policy[0].iter().filter(|tensor| tensor.name.ends_with(".weight")).map(|tensor| &tensor.shape).collect();
+    let actor = policy[0].iter().filter(|tensor| tensor.name.starts_with("actor.") && tensor.name.ends_with(".weight"));
+    let weights: Vec<_> = actor.map(|tensor| &tensor.shape).collect();
     let hidden: Vec<usize> = weights[1..].iter().map(|shape| shape[0]).collect();
     NetworkShape::new(weights[0][0], weights[weights.len() - 1][1], &hidden)
 }
