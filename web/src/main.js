@@ -187,13 +187,10 @@ class App {
       this.state = next;
       this.opened(generation, description);
     } catch (error) {
+      if (first) await this.open({ ...initialState(), task, seed });
+      // The formula of a link stands in the field before it is called wrong.
+      if (formula && error instanceof Refused) await this.spec.putFormula(formula);
       this.refused(error, next);
-      if (!first) return;
-      await this.open({ ...initialState(), task, seed });
-      if (formula && error instanceof Refused) {
-        await this.spec.putFormula(formula);
-        this.refused(error, next);
-      }
     }
   }
 
