@@ -22,7 +22,7 @@ macro_rules! builtin {
     };
 }
 
-const BUILTINS: &[Builtin] = builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2"];
+const BUILTINS: &[Builtin] = builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2", "melas", "victoria"];
 
 /// A built-in task, for a list to choose from.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]

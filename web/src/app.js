@@ -1,0 +1,323 @@
+// @ts-check
+// The app: one worker, one session, one state, one clock. What is shown of a moment is the theatre's business; parts that are wired to
+// the app hear its signals.
+
+import { Client, Refused } from './client.js';
+import { byId, count, forgetColours, offer, setText } from './dom.js';
+import { notice } from './keeping.js';
+import { tellProblems } from './link.js';
+import { Signals } from './signals.js';
+import { initialState } from './state.js';
+import { Theatre } from './theatre.js';
+import { loadPlot } from './vendor.js';
+import { Controls } from './views/controls.js';
+import { Curves } from './views/curves.js';
+import { Evaluation, Modules, Settings } from './views/details.js';
+import { Spec } from './views/spec.js';
+
+/** @typedef {import('./protocol.js').Description} Description */
+/** @typedef {import('./state.js').State} State */
+
+/** The runs of an evaluation. */
+const RUNS = 200;
+
+const $ = {
+  button: (/** @type {string} */ id) => byId(id, HTMLButtonElement),
+  select: (/** @type {string} */ id) => byId(id, HTMLSelectElement),
+  input: (/** @type {string} */ id) => byId(id, HTMLInputElement),
+  any: (/** @type {string} */ id) => byId(id, HTMLElement),
+};
+
+export class App {
+  /** @param {State} state */
+  constructor(state) {
+    this.state = state;
+    this.signals = new Signals();
+    /** @type {Description | null} */
+    this.description = null;
+    this.generation = 0;
+    this.training = false;
+    /** The tasks on offer. @type {import('./protocol.js').TaskEntry[]} */
+    this.tasks = [];
+    /** The tasks that a trained policy comes for. @type {string[]} */
+    this.policies = [];
+    this.client = new Client(() => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }), this.listeners());
+    this.theatre = new Theatre((command) => this.ask(command));
+    this.spec = this.makeSpec();
+    this.controls = this.makeControls();
+    this.modules = new Modules($.any('modules'));
+    this.settings = new Settings($.any('settings'), (key, value) => this.override(key, value));
+    this.evaluation = new Evaluation($.any('evaluation'));
+    /** @type {Curves | null} */
+    this.curves = null;
+    /** The newest curves, for the plots when they are there. @type {import('./protocol.js').Curves | null} */
+    this.points = null;
+    const on = (/** @type {string} */ id, /** @type {() => void} */ act) => $.button(id).addEventListener('click', act);
+    on('evaluate', () => this.evaluate());
+    on('settings-own', () => this.open({ ...this.state, set: {} }));
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) this.theatre.setPlaying(false);
+    this.showState();
+  }
+
+  /** @returns {import('./client.js').Listeners} */
+  listeners() {
+    return {
+      frame: ({ generation, data }) => {
+        this.theatre.hear(generation, data);
+        if (this.theatre.live) this.controls.update(this.theatre.live);
+      },
+      telemetry: (reply) => {
+        if (reply.generation !== this.generation) return;
+        this.controls.rate(reply.rate);
+        this.points = reply.curves;
+        this.curves?.update(reply.curves);
+        this.modules.update(reply.modules);
+        this.signals.tell('telemetry', reply);
+      },
+      evaluation: ({ generation, progress }) => {
+        if (generation !== this.generation) return;
+        this.evaluation.update(progress);
+        this.signals.tell('evaluation', progress);
+      },
+      finished: ({ generation, first_perfect_step }) => {
+        if (generation !== this.generation) return;
+        this.setTraining(false);
+        notice(first_perfect_step === null
+          ? 'Training has used up the budget of its recipe. Press Train to go on.'
+          : `Learned: every run of the evaluation after ${count(first_perfect_step)} steps satisfies the task. Press Train to go on.`);
+        this.signals.tell('finished', first_perfect_step);
+      },
+      broken: (message) => this.mend(message),
+    };
+  }
+
+  makeSpec() {
+    return new Spec(
+      {
+        task: $.select('task'), preset: $.select('preset'), formula: $.input('formula'), mirror: $.any('formula-mirror'), said: $.any('formula-said'),
+        words: $.any('formula-words'), apply: $.button('formula-apply'), hoaPanel: byId('hoa-panel', HTMLDetailsElement), hoa: byId('hoa', HTMLTextAreaElement),
+        hoaSaid: $.any('hoa-said'), hoaApply: $.button('hoa-apply'), hoaOwn: $.button('hoa-own'), hoaSave: $.button('hoa-save'), hoaFile: $.input('hoa-file'),
+      },
+      {
+        checkFormula: (text) => this.client.ask({ kind: 'check_formula', text }),
+        checkHoa: (text) => this.client.ask({ kind: 'check_hoa', text }),
+        chooseTask: (task) => this.open({ ...this.state, task, formula: '', hoa: '', preset: '', set: {} }),
+        choosePreset: (preset) => this.open({ ...this.state, preset }),
+        useFormula: (formula) => this.open({ ...this.state, formula, hoa: '' }),
+        useHoa: (hoa) => this.open({ ...this.state, hoa }),
+        saveHoa: (hoa) => offer(`${this.state.task}.hoa`, hoa, 'text/plain'),
+      },
+    );
+  }
+
+  makeControls() {
+    return new Controls(
+      {
+        train: $.button('train'), step: $.button('step'), episode: $.button('episode'), pace: $.select('pace'), rate: $.any('rate'), steps: $.any('n-steps'),
+        episodes: $.any('n-episodes'), updates: $.any('n-updates'), seed: $.input('seed'), reset: $.button('reset'), newSeed: $.button('new-seed'),
+        watch: $.any('watch'), speed: $.select('speed'),
+      },
+      {
+        train: () => this.toggleTraining(),
+        step: () => this.single('step'),
+        episode: () => this.single('episode'),
+        pace: (pace) => {
+          this.change({ pace });
+          if (this.training) this.ask({ kind: 'train', pace });
+        },
+        restart: (seed) => this.open({ ...this.state, seed }),
+        watch: (watch) => this.watch(watch),
+        speed: (speed) => this.change({ speed }),
+      },
+    );
+  }
+
+  /** Begins: the worker, the task of the link, the first episode; then the libraries that can wait. */
+  async start() {
+    const paint = (/** @type {number} */ now) => {
+      this.theatre.paint(now);
+      requestAnimationFrame(paint);
+    };
+    requestAnimationFrame(paint);
+    const listed = fetch('policies.json').then((r) => r.json()).catch(() => []);
+    try {
+      this.tasks = await this.client.ready;
+      this.policies = await listed;
+      this.spec.offer(this.tasks);
+      if (!this.tasks.some((t) => t.name === this.state.task)) {
+        tellProblems([{ property: 'task', message: `${this.state.task} is unknown; known are ${this.tasks.map((t) => t.name).join(', ')}` }]);
+        this.state = { ...initialState(), seed: this.state.seed };
+      }
+    } catch {
+      return; // `broken` has said why
+    }
+    await this.open(this.state, true);
+    this.curves = new Curves($.any('curves'), await loadPlot());
+    if (this.points) this.curves.update(this.points);
+  }
+
+  // --- the session --------------------------------------------------------------------------------------------------------
+
+  /**
+   * Opens a task; whether it stands. A refusal is shown at the field that caused it and the present session stays.
+   * @param {State} next
+   * @param {boolean} [first]  whether nothing is open yet: a refusal then falls back to the task as it is shipped
+   */
+  async open(next, first = false) {
+    const { task, formula, hoa, seed, preset, set } = next;
+    const request = { task, formula: formula || null, hoa: hoa || null, seed, preset: preset || null, overrides: set };
+    try {
+      const { generation, description } = await this.client.ask({ kind: 'open', request });
+      this.state = next;
+      this.opened(generation, description);
+      return true;
+    } catch (error) {
+      if (first) await this.open({ ...initialState(), task, seed });
+      // The formula of a link stands in the field before it is called wrong.
+      if (formula && error instanceof Refused) await this.spec.putFormula(formula);
+      this.refused(error, next);
+      return false;
+    }
+  }
+
+  /** Opens a checkpoint; whether it stands. @param {Uint8Array} bytes */
+  async restore(bytes) {
+    const answer = await this.ask({ kind: 'restore', bytes });
+    if (!answer) return false;
+    const { generation, description } = answer;
+    const { name: task, preset } = description.task;
+    /** @type {Partial<State>} */
+    const shown = { task, preset, seed: description.seed, formula: '', hoa: '', set: {}, watch: 'policy' };
+    this.state = { ...this.state, ...shown };
+    this.opened(generation, description);
+    return true;
+  }
+
+  /** @param {unknown} error @param {State} next */
+  refused(error, next) {
+    if (!(error instanceof Refused)) return;
+    const { where } = error;
+    if (where.field === 'formula' && next.formula) this.spec.refuse(where);
+    else if (where.field === 'hoa' && next.hoa) this.spec.refuseHoa(where);
+    else notice(error.message + (where.hint ? ` (${where.hint})` : ''), true);
+  }
+
+  /** @param {number} generation @param {Description} description */
+  opened(generation, description) {
+    this.generation = generation;
+    this.description = description;
+    this.setTraining(false);
+    this.controls.rate(0);
+    this.theatre.open(generation, description);
+    this.spec.show(description);
+    this.settings.show(description.settings, this.state.set);
+    const changed = Object.keys(this.state.set).length > 0;
+    setText($.any('settings-note'), changed ? 'changed by you' : 'change one to start anew');
+    $.button('settings-own').hidden = !changed;
+    this.evaluation.clear();
+    this.signals.tell('opened', description);
+    this.loadTrained(generation).then((trained) => {
+      if (generation !== this.generation) return;
+      this.theatre.trained = trained;
+      this.showState();
+      this.theatre.watch(this.state.watch);
+    });
+  }
+
+  /** Loads the trained policy of the open task, if one comes with the page and the task is as it is shipped. @param {number} mine */
+  async loadTrained(mine) {
+    const { task, formula, hoa } = this.state;
+    if (formula || hoa || !this.policies.includes(task)) return false;
+    try {
+      const answer = await fetch(`assets/policies/${task}.safetensors`);
+      if (!answer.ok || mine !== this.generation) return false;
+      const { generation, fits } = await this.client.ask({ kind: 'load_policy', bytes: new Uint8Array(await answer.arrayBuffer()) });
+      return fits && generation === mine;
+    } catch {
+      return false; // without it the page shows the present policy
+    }
+  }
+
+  /** Sends a command; a refusal is shown, and `undefined` returned. @param {import('./protocol.js').Command} command */
+  async ask(command) {
+    try {
+      return await this.client.ask(command);
+    } catch (error) {
+      this.refused(error, this.state);
+      return undefined;
+    }
+  }
+
+  /** Opens the task anew with another value of a hyper-parameter; a value that is refused goes back. @param {string} key @param {string} value */
+  async override(key, value) {
+    await this.open({ ...this.state, set: { ...this.state.set, [key]: value } });
+    if (this.description && this.state.set[key] !== value) this.settings.show(this.description.settings, this.state.set);
+  }
+
+  /** A worker that broke is replaced, and the task opened anew. @param {string} message */
+  async mend(message) {
+    notice(`The computation stopped: ${message}. It was started again with the same task and seed.`, true);
+    if (this.description === null) return;
+    this.description = null;
+    this.theatre.close();
+    await this.client.restart().catch(() => {});
+    await this.open(this.state, true);
+  }
+
+  // --- training -----------------------------------------------------------------------------------------------------------
+
+  /** @param {boolean} training */
+  setTraining(training) {
+    const changed = training !== this.training;
+    this.training = training;
+    this.controls.training(training);
+    if (changed) this.signals.tell('training', training);
+  }
+
+  toggleTraining() {
+    this.setTraining(!this.training);
+    if (this.training && this.state.watch === 'trained') this.watch('policy');
+    if (!this.training) this.controls.rate(0);
+    this.ask(this.training ? { kind: 'train', pace: this.state.pace } : { kind: 'pause' });
+  }
+
+  /** @param {'step' | 'episode'} kind */
+  async single(kind) {
+    this.setTraining(false);
+    if (this.state.watch !== 'training') this.watch('training');
+    await this.ask({ kind });
+  }
+
+  evaluate() {
+    this.setTraining(false);
+    return this.ask({ kind: 'evaluate', runs: RUNS });
+  }
+
+  // --- the state ----------------------------------------------------------------------------------------------------------
+
+  /** @param {State['watch']} watch */
+  watch(watch) {
+    this.change({ watch });
+    this.theatre.watch(watch);
+  }
+
+  /** Changes what needs no other session: watch, speed, pace, hide. @param {Partial<State>} part */
+  change(part) {
+    this.state = { ...this.state, ...part };
+    this.showState();
+  }
+
+  showState() {
+    this.theatre.speed = this.state.speed;
+    this.controls.show(this.state, this.theatre.trained);
+    this.signals.tell('state', this.state);
+  }
+
+  retheme() {
+    forgetColours();
+    this.theatre.retheme();
+    this.curves?.retheme();
+    const { theme } = document.documentElement.dataset;
+    this.signals.tell('theme', theme === 'light' || theme === 'dark' ? theme : 'system');
+  }
+}
