@@ -230,3 +230,27 @@ fn without_a_file_the_formula_is_translated() {
         assert!(setup.automaton().len() > 1, "{name}");
     }
 }
+
+/// 200 runs say something only where they differ.
+#[test]
+fn evaluations_start_in_places_of_their_own() {
+    use ltl_rover::eval::RolloutSettings;
+    use ltl_rover::product::Start;
+    for (name, text) in tasks() {
+        let setup = open(&name, &text, "fast", &[]).unwrap();
+        let starts = |settings: RolloutSettings| {
+            let places: Vec<Vec<u32>> = (0..20)
+                .map(|seed| {
+                    setup.rollout_under(settings, seed).product().environment().state().iter().map(|x| x.to_bits()).collect()
+                })
+                .collect();
+            let different = places.iter().enumerate().filter(|(i, place)| !places[..*i].contains(place)).count();
+            (different, places)
+        };
+        let task = setup.rollout_settings();
+        assert_eq!(starts(task).0, 20, "{name}");
+        let initial = RolloutSettings { start: Start::Initial, ..task };
+        assert_eq!(starts(initial).0, if name.starts_with("ball_pass") { 1 } else { 20 }, "{name}");
+        assert_eq!(starts(initial).1, starts(initial).1, "{name}: the same seed gives the same start");
+    }
+}

@@ -66,7 +66,8 @@ pub struct EvaluationSection {
     /// Episodes.
     #[serde(default = "default_runs")]
     pub runs: u32,
-    /// Where the environment starts.
+    /// Where the environment starts: `initial`, its own distribution, the paper's; or `anywhere`, spread over all safe ground. Where
+    /// the former is a single state, as in `ball_pass`, all episodes from it are one and the same.
     #[serde(default)]
     pub start: Start,
 }

@@ -182,7 +182,12 @@ impl Setup {
 
     /// An episode from a start drawn from `seed`, to be played by any policy.
     pub fn rollout(&self, seed: u64) -> Rollout {
-        Rollout::new(self.product(), self.reward.clone(), self.rollout_settings(), seed)
+        self.rollout_under(self.rollout_settings(), seed)
+    }
+
+    /// An episode from a start drawn from `seed`, under other settings than the task's.
+    pub fn rollout_under(&self, settings: RolloutSettings, seed: u64) -> Rollout {
+        Rollout::new(self.product(), self.reward.clone(), settings, seed)
     }
 
     /// A fresh learner.
