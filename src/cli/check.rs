@@ -1,6 +1,7 @@
 //! `check`: can this automaton be used, is this a formula, do the two match? Also shows the automaton in other forms.
 
 use super::failure::Failure;
+use super::output::{out, outln};
 use crate::automaton::hoa::{self, AcceptanceForm, EpsilonForm, HoaError, Reading, StreamItem, WriteOptions};
 use crate::automaton::{Letters, Matched, Mismatch, Statistics, WordBudget, matches};
 use crate::ltl::{Formula, Parentheses, Style};
@@ -104,9 +105,9 @@ impl Check {
     fn report_formula(&self, formula: &Formula) {
         let (text, full) = (formula.to_string(), formula.printed(Style::Ascii, Parentheses::Everywhere).to_string());
         if self.json {
-            println!("{}", json!({"ok": true, "formula": text, "parenthesised": full, "propositions": formula.propositions()}));
+            outln!("{}", json!({"ok": true, "formula": text, "parenthesised": full, "propositions": formula.propositions()}));
         } else {
-            println!("{text}\n  fully parenthesised: {full}\n  propositions: {}", formula.propositions().join(", "));
+            outln!("{text}\n  fully parenthesised: {full}\n  propositions: {}", formula.propositions().join(", "));
         }
     }
 
@@ -163,7 +164,7 @@ impl Check {
                 Some(Err(error)) => object["error"] = json!(error.to_string()),
                 None => {}
             }
-            println!("{object}");
+            outln!("{object}");
             return Ok(code);
         }
         self.say(format_args!("{name}: {}", summary(&statistics)));
@@ -183,7 +184,7 @@ impl Check {
             None => {}
         }
         if let Some(form) = self.to {
-            print!("{}", self.written(form, reading)?);
+            out!("{}", self.written(form, reading)?);
         }
         Ok(code)
     }
@@ -192,7 +193,7 @@ impl Check {
         let place = error.place();
         if self.json {
             let span = [place.span.start, place.span.end];
-            println!(
+            outln!(
                 "{}",
                 json!({
                     "file": name, "ok": false, "error": error.message(), "kind": error.kind().code(), "hint": error.suggestion(),
@@ -231,7 +232,7 @@ impl Check {
 
     /// A line of the summary: on standard output, unless that is taken.
     fn say(&self, line: std::fmt::Arguments<'_>) {
-        if self.json || self.to.is_some() { eprintln!("{line}") } else { println!("{line}") }
+        if self.json || self.to.is_some() { eprintln!("{line}") } else { outln!("{line}") }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `classify`: what kind of property a formula is, whether it can be satisfied, and what it says in English.
 
 use super::failure::Failure;
+use super::output::outln;
 use super::translate::{formulas_of, read_formula};
 use crate::automaton::translate::TranslateOptions;
 use crate::automaton::{Classification, classify};
@@ -66,7 +67,7 @@ fn print_json(formula: &Formula, notes: &[Note], found: &Classification) {
         .iter()
         .map(|note| json!({"kind": note.kind.code(), "span": [note.span.start, note.span.end], "message": note.message}))
         .collect();
-    println!(
+    outln!(
         "{}",
         json!({
             "formula": formula.to_string(), "paraphrase": formula.paraphrase(), "class": found.class, "exact": found.exact,
@@ -76,18 +77,18 @@ fn print_json(formula: &Formula, notes: &[Note], found: &Classification) {
 }
 
 fn print_text(formula: &Formula, notes: &[Note], found: &Classification) {
-    println!("{formula}");
-    println!("  fully parenthesised: {}", formula.printed(Style::Ascii, Parentheses::Everywhere));
+    outln!("{formula}");
+    outln!("  fully parenthesised: {}", formula.printed(Style::Ascii, Parentheses::Everywhere));
     for note in notes {
-        println!("  note: {}", note.message);
+        outln!("  note: {}", note.message);
     }
-    println!("  in English: {}", formula.paraphrase());
+    outln!("  in English: {}", formula.paraphrase());
     if !found.satisfiable {
-        println!("  no word satisfies it");
+        outln!("  no word satisfies it");
     } else if found.valid {
-        println!("  every word satisfies it");
+        outln!("  every word satisfies it");
     } else {
         let certain = if found.exact { "" } else { ", or a smaller class that was not recognised" };
-        println!("  class: {} ({}){certain}", found.class.name(), found.class.meaning());
+        outln!("  class: {} ({}){certain}", found.class.name(), found.class.meaning());
     }
 }

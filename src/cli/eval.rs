@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
+use super::output::outln;
 use crate::eval::evaluate;
 use clap::Args;
 use std::path::PathBuf;
@@ -41,12 +42,12 @@ impl Eval {
         let runs = self.runs.unwrap_or(setup.task().file().evaluation.runs);
         let e = evaluate(&mut setup.rollout(self.seed), &mut learner, runs, self.seed);
         if self.json {
-            println!("{}", serde_json::to_string(&Json::from(&e)).expect("plain data has a form in JSON"));
+            outln!("{}", serde_json::to_string(&Json::from(&e)).expect("plain data has a form in JSON"));
             return Ok(ExitCode::SUCCESS);
         }
         let percent = |x: f64| format!("{:.1} %", 100.0 * x);
-        println!("{} — {}", setup.task().file().title, setup.task().file().specification.ltl);
-        println!(
+        outln!("{} — {}", setup.task().file().title, setup.task().file().specification.ltl);
+        outln!(
             "success        {}/{} = {}, 95 % interval [{}, {}] (Clopper–Pearson)",
             e.successes,
             e.runs,
@@ -54,12 +55,12 @@ impl Eval {
             percent(e.ci95.low),
             percent(e.ci95.high)
         );
-        println!("rounds         {:.2} per episode of {} steps", e.rounds_mean, setup.rollout_settings().max_steps);
+        outln!("rounds         {:.2} per episode of {} steps", e.rounds_mean, setup.rollout_settings().max_steps);
         let first = e.first_round_steps_mean.map_or("never".to_owned(), |s| format!("after {s:.1} steps"));
-        println!("first round    {first}");
-        println!("sinks          {}", percent(e.sink_rate));
-        println!("total reward   {:.4} per episode", e.total_reward_mean);
-        println!("seed           {}", e.seed);
+        outln!("first round    {first}");
+        outln!("sinks          {}", percent(e.sink_rate));
+        outln!("total reward   {:.4} per episode", e.total_reward_mean);
+        outln!("seed           {}", e.seed);
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -12,6 +12,7 @@ mod eval;
 mod failure;
 mod files;
 mod logs;
+mod output;
 mod plot;
 mod progress;
 mod replay;

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
+use super::output::outln;
 use super::trajectory::{Names, Row};
 use clap::Args;
 use serde_json::json;
@@ -54,7 +55,7 @@ impl Replay {
         let failed = |e: csv::Error| Failure::running(e);
         match &mut table {
             Some(table) => table.write_record(names.columns()).map_err(failed)?,
-            None if !self.json => println!("{}", names.head()),
+            None if !self.json => outln!("{}", names.head()),
             None => {}
         }
         let (mut index, mut step) = (0, None);
@@ -70,8 +71,8 @@ impl Replay {
             };
             match &mut table {
                 Some(table) => table.write_record(names.record(&row)).map_err(failed)?,
-                None if self.json => println!("{}", names.object(&row)),
-                None => println!("{}", names.line(&row)),
+                None if self.json => outln!("{}", names.object(&row)),
+                None => outln!("{}", names.line(&row)),
             }
             step = rollout.step(&mut learner);
             index += 1;
@@ -81,12 +82,12 @@ impl Replay {
         }
         let e = rollout.episode();
         if self.json {
-            println!("{}", json!({ "episode": e, "success": e.success(), "seed": self.seed }));
+            outln!("{}", json!({ "episode": e, "success": e.success(), "seed": self.seed }));
         } else {
             let verdict = if e.success() { "success" } else { "failure" };
             let first = e.first_round_steps.map_or(String::new(), |s| format!(", the first after {s}"));
             let sink = if e.sink { ", ended in a sink" } else { "" };
-            println!("{verdict}: {} rounds in {} steps{first}{sink}", e.rounds, e.steps);
+            outln!("{verdict}: {} rounds in {} steps{first}{sink}", e.rounds, e.steps);
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::files;
+use super::output::outln;
 use super::trajectory::{Names, Row};
 use crate::product::{Start, product_trace_hash, run};
 use crate::task::Override;
@@ -67,21 +68,21 @@ impl Run {
             Row { index: i + 1, state: &s.state, labels: s.step.labels, at: s.step.to, step: Some(&s.step), rounds }
         });
         if !self.json {
-            println!("{}", names.head());
+            outln!("{}", names.head());
         }
         for row in std::iter::once(first).chain(rest) {
             if self.json {
-                println!("{}", names.object(&row));
+                outln!("{}", names.object(&row));
             } else {
-                println!("{}", names.line(&row));
+                outln!("{}", names.line(&row));
             }
         }
         let (steps, end, hash) = (made.states.len(), format!("{:?}", made.end).to_lowercase(), product_trace_hash(&made));
         if self.json {
             let hash = format!("{hash:016x}");
-            println!("{}", json!({ "steps": steps, "rounds": made.rounds, "end": end, "seed": self.seed, "trace_hash": hash }));
+            outln!("{}", json!({ "steps": steps, "rounds": made.rounds, "end": end, "seed": self.seed, "trace_hash": hash }));
         } else {
-            println!("{steps} steps, {} rounds, end: {end}; trace {hash:016x}", made.rounds);
+            outln!("{steps} steps, {} rounds, end: {end}; trace {hash:016x}", made.rounds);
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -1,6 +1,7 @@
 //! `schema`: the JSON schema of task files, for editors and other tools.
 
 use super::failure::Failure;
+use super::output::out;
 use crate::task::TaskFile;
 use clap::Args;
 use std::process::ExitCode;
@@ -22,7 +23,7 @@ impl Schema {
     /// # Errors
     /// None.
     pub fn run(&self) -> Result<ExitCode, Failure> {
-        print!("{}", text());
+        out!("{}", text());
         Ok(ExitCode::SUCCESS)
     }
 }

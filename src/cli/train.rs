@@ -4,6 +4,7 @@ use super::curves::{self, Curve};
 use super::failure::Failure;
 use super::files;
 use super::logs::Logs;
+use super::output::outln;
 use super::plot::Metric;
 use super::progress::Bar;
 use crate::agent::Replays;
@@ -152,9 +153,9 @@ impl Train {
         }
         bar.finish();
         if self.json {
-            println!("{json}");
+            outln!("{json}");
         } else {
-            println!("{}", sentence(&summary));
+            outln!("{}", sentence(&summary));
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -205,7 +206,7 @@ impl Train {
 }
 
 fn print_json(value: &serde_json::Value) {
-    println!("{value}");
+    outln!("{value}");
 }
 
 fn sentence(summary: &Summary<'_>) -> String {

@@ -1,6 +1,7 @@
 //! `translate`: from a formula to a small limit-deterministic automaton, as HOA, DOT or JSON.
 
 use super::failure::Failure;
+use super::output::out;
 use crate::automaton::hoa::{self, AcceptanceForm, EpsilonForm, WriteOptions};
 use crate::automaton::translate::{Acceptance, Budget, TranslateOptions, translate_unless};
 use crate::automaton::{Ldgba, Letters};
@@ -116,7 +117,7 @@ impl Translate {
             let summary = super::check::summary(&automaton.statistics());
             eprintln!("{place}: {formula}: {summary}, {:.1} ms", taken.as_secs_f64() * 1e3);
         }
-        print!("{}", self.written(&formula, &automaton, taken)?);
+        out!("{}", self.written(&formula, &automaton, taken)?);
         Ok(())
     }
 

@@ -99,6 +99,17 @@ pub(super) fn suggestion(message: &str) -> Option<String> {
     did_you_mean(wanted, rest.split('`').skip(1).step_by(2))
 }
 
+/// Serde's message with the types of Rust said in words.
+pub(super) fn in_words(message: &str) -> String {
+    let (before, expected) = match message.trim().rsplit_once("expected ") {
+        Some((before, "usize" | "u64" | "u32" | "u8")) => (before, "a whole number, 0 or more"),
+        Some((before, "f32" | "f64")) => (before, "a number"),
+        Some((before, "a boolean")) => (before, "true or false"),
+        _ => return message.trim().to_owned(),
+    };
+    format!("{before}expected {expected}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,6 +120,13 @@ mod tests {
         assert_eq!(suggestion(message).as_deref(), Some("did you mean `n_step`?"));
         assert_eq!(suggestion("unknown field `zzzzzz`, expected `a` or `b`"), None);
         assert_eq!(suggestion("invalid type: string \"x\", expected f32"), None);
+    }
+
+    #[test]
+    fn types_are_said_in_words() {
+        let said = in_words("invalid value: integer `-3`, expected usize\n");
+        assert_eq!(said, "invalid value: integer `-3`, expected a whole number, 0 or more");
+        assert_eq!(in_words("missing field `name`"), "missing field `name`");
     }
 
     #[test]

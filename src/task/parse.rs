@@ -1,7 +1,7 @@
 //! From text to a checked [`Task`].
 
 use super::check::out_of_range;
-use super::error::{TaskError, did_you_mean, suggestion};
+use super::error::{TaskError, did_you_mean, in_words, suggestion};
 use super::file::TaskFile;
 use super::parts::environment;
 use super::preset::Preset;
@@ -54,7 +54,7 @@ impl Task {
             return Err(TaskError::new(name, "", None, format!("a task file has at most {MAX_TEXT} bytes")));
         }
         let file: TaskFile = toml::from_str(text).map_err(|e| {
-            let message = e.message().trim().to_owned();
+            let message = in_words(e.message());
             TaskError::new(name, text, e.span(), &message).with_help(suggestion(&message))
         })?;
         let task = Task { formula: Formula::True, file, text: text.to_owned(), name: name.to_owned(), map: None };
@@ -186,7 +186,7 @@ impl Preset {
     /// What is wrong with it, and where.
     pub fn parse(text: &str, name: &str) -> Result<Preset, TaskError> {
         let preset: Preset = toml::from_str(text).map_err(|e| {
-            let message = e.message().trim().to_owned();
+            let message = in_words(e.message());
             TaskError::new(name, text, e.span(), &message).with_help(suggestion(&message))
         })?;
         match out_of_range(&preset) {
@@ -215,5 +215,5 @@ fn changed(preset: &Preset, change: &Override) -> Result<Preset, TaskError> {
         place = table.entry(key).or_insert_with(|| toml::Value::Table(toml::Table::new()));
     }
     *place = value;
-    tree.try_into().map_err(|e: toml::de::Error| error(&format!("{shown}: {}", e.message().trim())))
+    tree.try_into().map_err(|e: toml::de::Error| error(&format!("{shown}: {}", in_words(e.message()))))
 }

@@ -5,6 +5,7 @@ mod node;
 mod report;
 
 use super::failure::Failure;
+use crate::cli::output::{out, outln};
 use crate::nn::fused::Kernel;
 use crate::nn::workload::peak;
 use clap::Args;
@@ -73,9 +74,9 @@ impl Bench {
         }
         eprintln!();
         if self.json {
-            println!("{}", report.json());
+            outln!("{}", report.json());
         } else {
-            print!("{report}");
+            out!("{report}");
         }
         let missed = report.goals().iter().any(|goal| !goal.reached());
         Ok(ExitCode::from(u8::from(self.check && missed)))
