@@ -13,9 +13,9 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, ModuleStatistics, TaskEntry } from '../src/protocol.js';
+import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry } from '../src/protocol.js';
 export interface Request {
-  task: string; formula?: string | null; hoa?: string | null; seed: bigint; preset?: string | null; overrides?: Record<string, string>;
+  task: string; formula?: string | null; hoa?: string | null; map?: string | null; seed: bigint; preset?: string | null; overrides?: Record<string, string>;
 }
 "#;
 
@@ -39,6 +39,8 @@ extern "C" {
     pub type JsFormulaVerdict;
     #[wasm_bindgen(typescript_type = "HoaVerdict")]
     pub type JsHoaVerdict;
+    #[wasm_bindgen(typescript_type = "MapVerdict")]
+    pub type JsMapVerdict;
 }
 
 /// Runs once when the module is loaded: a panic is said in the console with its place, before the trap.
@@ -98,6 +100,28 @@ pub fn check_formula(text: &str, known: Vec<String>) -> JsFormulaVerdict {
 #[wasm_bindgen]
 pub fn check_hoa(text: &str) -> JsHoaVerdict {
     verdict(session::check_hoa(text))
+}
+
+/// The verdict on a map file; `image` is the PNG whose colours are labels, if the file says so.
+#[wasm_bindgen]
+pub fn check_map(json: &str, image: Option<Vec<u8>>) -> JsMapVerdict {
+    map_verdict(session::check_map(json, image.as_deref()))
+}
+
+/// The verdict on a picture with flat colours as a map: red, green, blue and opacity of its pixels, row by row.
+#[wasm_bindgen]
+pub fn map_of_picture(name: &str, width: u32, height: u32, pixels: &[u8]) -> JsMapVerdict {
+    map_verdict(session::map_of_picture(name, width as usize, height as usize, pixels))
+}
+
+fn map_verdict(result: Result<session::MapFacts, Refusal>) -> JsMapVerdict {
+    let indices = result.as_ref().ok().map(|facts| Uint8Array::from(facts.indices.as_slice()));
+    let object: JsMapVerdict = verdict(result);
+    if let Some(indices) = indices {
+        let facts = Reflect::get(&object, &"facts".into()).expect("a verdict that is good has facts");
+        set(&facts, "indices", indices);
+    }
+    object
 }
 
 /// An open task under training.

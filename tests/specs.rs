@@ -1,5 +1,6 @@
 //! Every task in `specs/` opens and ticks, in each of its presets; what is wrong with a task is said at its place.
 
+use ltl_rover::env::map::RoverMap;
 use ltl_rover::task::{Override, Setup, Task, TaskError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,10 @@ fn tasks() -> Vec<(String, String)> {
 }
 
 fn open(name: &str, text: &str, preset: &str, overrides: &[Override]) -> Result<Setup, TaskError> {
-    let task = Task::parse(text, name)?;
+    let mut task = Task::parse(text, name)?;
+    if let Some(map) = task.map_file().and_then(|file| fs::read_to_string(folder().join(file)).ok()) {
+        task = task.with_map(RoverMap::from_json(&map, None).unwrap());
+    }
     let hoa = task.file().specification.hoa.as_ref().map(|file| fs::read_to_string(folder().join(file)).unwrap());
     Setup::open(task, preset, overrides, hoa.as_deref())
 }

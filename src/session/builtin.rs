@@ -22,7 +22,18 @@ macro_rules! builtin {
     };
 }
 
-const BUILTINS: &[Builtin] = builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2", "melas", "victoria"];
+const BUILTINS: &[Builtin] =
+    builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2", "melas", "victoria", "own_map"];
+
+/// The built-in task with exactly this text.
+pub(super) fn with_text(text: &str) -> Option<&'static Builtin> {
+    BUILTINS.iter().find(|b| b.toml == text)
+}
+
+/// The map file that a built-in task names, if it names one that is not among the shipped maps.
+pub(super) fn map_of(name: &str) -> Option<&'static str> {
+    (name == "own_map").then_some(include_str!("../../specs/own_map.json"))
+}
 
 /// A built-in task, for a list to choose from.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]

@@ -2,6 +2,7 @@
 
 use super::check::FormulaFacts;
 use super::frame::Layout;
+use super::open::OpenRequest;
 use crate::automaton::Graph;
 use crate::env::{Channel, Environment, Scene};
 use serde::Serialize;
@@ -126,4 +127,6 @@ pub struct Description {
     pub seed: u64,
     /// Where the numbers of a frame lie.
     pub layout: Layout,
+    /// The request that opens the same task anew.
+    pub request: OpenRequest,
 }

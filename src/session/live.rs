@@ -5,23 +5,19 @@ use super::describe::{Description, EnvironmentFacts, TaskFacts, settings};
 use super::drive::Drive;
 use super::edges::EdgeIndex;
 use super::frame::{Counters, FrameWriter, Layout, Source};
-use super::open::{OpenRequest, Opened, written};
+use super::open::{OpenRequest, Opened};
 use super::refusal::{Refusal, Subject};
 use super::trial::{Trial, TrialProgress};
 use super::{FormulaFacts, builtin};
-use crate::agent::Replays;
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
 use crate::ltl::Formula;
 use crate::rng::{Purpose, Rng};
-use crate::task::{Setup, TaskError};
-use crate::train::{Checkpoint, CheckpointError, End, Run, Tick};
-use serde::Serialize;
+use crate::task::Setup;
+use crate::train::{End, Run, Tick};
+use serde::{Deserialize, Serialize};
 
 /// The most episodes that one evaluation plays.
 const MAX_RUNS: u32 = 100_000;
-
-/// The note of a checkpoint that holds the learning curves.
-const CURVES: &str = "curves";
 
 /// How much cheaper a move of an evaluation is than a step of training with its updates.
 const TRIAL_MOVES: u32 = 8;
@@ -59,8 +55,8 @@ pub struct ModuleStatistics {
 }
 
 /// What one module has done, as far as ticks tell.
-#[derive(Clone, Copy, Default, Debug)]
-struct Activity {
+#[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
+pub(super) struct Activity {
     visits: u64,
     updates: u64,
     critic: f32,
@@ -69,21 +65,22 @@ struct Activity {
 
 /// An open task under training.
 pub struct Session {
-    setup: Setup,
+    pub(super) request: OpenRequest,
+    pub(super) setup: Setup,
     name: String,
     hoa: String,
     seed: u64,
-    run: Run,
+    pub(super) run: Run,
     edges: EdgeIndex,
     layout: Layout,
-    curves: CurveRecorder,
-    activity: Vec<Activity>,
+    pub(super) curves: CurveRecorder,
+    pub(super) activity: Vec<Activity>,
     last: Option<Tick>,
     /// Σ R(x') of the present episode, and Σ and number of its critic losses.
-    total: f64,
-    critic: (f64, u32),
+    pub(super) total: f64,
+    pub(super) critic: (f64, u32),
     /// A periodic evaluation of training that is going on.
-    check: Option<Trial>,
+    pub(super) check: Option<Trial>,
     trial: Option<Trial>,
     drive: Option<Drive>,
 }
@@ -96,10 +93,10 @@ impl Session {
     pub fn open(request: &OpenRequest) -> Result<Session, Refusal> {
         let Opened { setup, name, hoa } = request.open()?;
         let run = setup.run(request.seed);
-        Ok(Session::around(setup, name, hoa, run))
+        Ok(Session::around(request.clone(), setup, name, hoa, run))
     }
 
-    fn around(setup: Setup, name: String, hoa: String, run: Run) -> Session {
+    pub(super) fn around(request: OpenRequest, setup: Setup, name: String, hoa: String, run: Run) -> Session {
         let edges = EdgeIndex::new(setup.automaton().clone());
         let product = run.trainer().product();
         let spec = product.environment().spec();
@@ -107,6 +104,7 @@ impl Session {
         let activity = vec![Activity::default(); run.trainer().learner().modules().len()];
         Session {
             seed: run.seed(),
+            request,
             setup,
             name,
             hoa,
@@ -153,6 +151,7 @@ impl Session {
             settings: settings(&preset).into_iter().filter(|s| s.key != "description").collect(),
             seed: self.seed,
             layout: self.layout.clone(),
+            request: self.request.clone(),
         }
     }
 
@@ -177,7 +176,7 @@ impl Session {
         made
     }
 
-    fn advance_check(&mut self) {
+    pub(super) fn advance_check(&mut self) {
         let check = self.check.as_mut().expect("asked only while one is going on");
         if !check.advance(self.run.trainer_mut().learner_mut(), TRIAL_MOVES) {
             let check = self.check.take().expect("it was there a line ago");
@@ -209,41 +208,6 @@ impl Session {
             });
         }
         self.last = Some(*tick);
-    }
-
-    /// A checkpoint: the bytes of a file from which [`Session::restore`] opens this session again. With [`Replays::Keep`] training
-    /// goes on from it bit by bit; without, it is small, and training first fills the replays anew. A periodic evaluation that is
-    /// going on is played to its end.
-    pub fn save(&mut self, replays: Replays) -> Vec<u8> {
-        while self.check.is_some() {
-            self.advance_check();
-        }
-        let mut origin = self.setup.origin();
-        origin.notes.insert(CURVES.to_owned(), toml::to_string(&self.curves).expect("curves are made of tables and numbers"));
-        self.run.save(&origin, replays)
-    }
-
-    /// The best policy alone (of this moment, if no evaluation has seen one): a small file that can be shown, not trained on.
-    pub fn save_policy(&self) -> Vec<u8> {
-        self.run.save_policy(&self.setup.origin())
-    }
-
-    /// Opens a checkpoint or a policy file.
-    ///
-    /// # Errors
-    /// Bytes that are none, or whose parts do not fit together.
-    pub fn restore(bytes: &[u8]) -> Result<Session, Refusal> {
-        let refusal = |e: CheckpointError| Refusal::new(Subject::Checkpoint, e.to_string());
-        let checkpoint = Checkpoint::read(bytes).map_err(refusal)?;
-        let inside = |e: TaskError| Refusal::new(Subject::Checkpoint, e.to_string());
-        let setup = Setup::from_checkpoint(&checkpoint).map_err(inside)?;
-        let run = setup.resume(&checkpoint).map_err(refusal)?;
-        let hoa = setup.hoa().map(str::to_owned).unwrap_or_else(|| written(setup.automaton()));
-        let mut session = Session::around(setup, checkpoint.origin.task_name.clone(), hoa, run);
-        if let Some(curves) = checkpoint.origin.notes.get(CURVES) {
-            session.curves = CurveRecorder::read(curves).map_err(|e| Refusal::new(Subject::Checkpoint, e))?;
-        }
-        Ok(session)
     }
 
     /// Environment steps of training so far.

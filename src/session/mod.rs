@@ -8,7 +8,8 @@
 //! - now and then, [`Curves`] and [`ModuleStatistics`];
 //! - on demand, an [`EpisodeTrace`] (frames of a greedy episode, row by row), a [`TrialProgress`], a checkpoint.
 //!
-//! Texts that a user types are judged by [`check_formula`] and [`check_hoa`]; every refusal is a [`Refusal`] with its place.
+//! Texts that a user types are judged by [`check_formula`], [`check_hoa`] and [`check_map`]; every refusal is a [`Refusal`] with its
+//! place. [`map_of_picture`] makes a map of a picture's flat colours.
 
 mod builtin;
 mod check;
@@ -17,8 +18,10 @@ mod describe;
 mod drive;
 mod edges;
 mod frame;
+mod keep;
 mod live;
 mod open;
+mod own_map;
 mod refusal;
 
 mod trial;
@@ -31,5 +34,6 @@ pub use edges::EdgeIndex;
 pub use frame::{Counters, FrameWriter, LAYOUT_VERSION, Layout, LayoutField, Source};
 pub use live::{EpisodeTrace, ModuleStatistics, Session};
 pub use open::OpenRequest;
+pub use own_map::{MapFacts, MapLabel, check_map, map_of_picture};
 pub use refusal::{Place, Refusal, Subject};
 pub use trial::{Trial, TrialProgress};

@@ -2,10 +2,11 @@
 
 use super::builtin;
 use super::check::formula_refusal;
+use super::own_map;
 use super::refusal::{Place, Refusal, Subject};
 use crate::automaton::{Ldgba, hoa};
 use crate::ltl::Formula;
-use crate::task::{Override, Setup, Task, TaskError};
+use crate::task::{Override, Setup, Task, TaskError, TaskFile};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -19,6 +20,9 @@ pub struct OpenRequest {
     pub formula: Option<String>,
     /// An automaton in the HOA format in place of the task's.
     pub hoa: Option<String>,
+    /// A map file (JSON) in place of a rover task's map. If it does not have the formula's propositions, and no other formula is
+    /// given, the formula is the one that [`MapFacts::suggested`](super::MapFacts) names.
+    pub map: Option<String>,
     /// The seed of everything.
     pub seed: u64,
     /// A preset; without one `fast`, or else the first.
@@ -40,17 +44,25 @@ impl OpenRequest {
     /// # Errors
     /// A [`Refusal`] that names the text at fault and the place in it.
     pub(super) fn open(&self) -> Result<Opened, Refusal> {
-        let (name, toml, shipped) = if self.task.contains('\n') {
-            ("task", self.task.as_str(), None)
+        let (name, toml, shipped, shipped_map) = if self.task.contains('\n') {
+            ("task", self.task.as_str(), None, None)
         } else {
             let builtin = builtin::find(&self.task)?;
-            (builtin.name, builtin.toml, Some(builtin.hoa))
+            (builtin.name, builtin.toml, Some(builtin.hoa), builtin::map_of(builtin.name))
         };
         let mut task = Task::parse(toml, name).map_err(task_refusal)?;
         let mut hoa_text = self.hoa.as_deref().or(shipped);
-        if let Some(formula) = self.formula.as_deref().filter(|f| *f != task.file().specification.ltl) {
-            Formula::parse(formula).map_err(|e| formula_refusal(formula, &e))?;
-            task = with_formula(&task, formula)?;
+        let mut formula = self.formula.clone();
+        if let Some(text) = self.map.as_deref().or(shipped_map) {
+            let map = own_map::read(text, None)?;
+            if formula.is_none() && !own_map::has_all(&map, &task) {
+                formula = Some(own_map::begin_with(&map)?);
+            }
+            task = own_map::on_map(&task, map)?;
+        }
+        if let Some(formula) = formula.filter(|f| *f != task.file().specification.ltl) {
+            Formula::parse(&formula).map_err(|e| formula_refusal(&formula, &e))?;
+            task = with_formula(&task, &formula)?;
             hoa_text = self.hoa.as_deref();
         }
         if let Some(text) = hoa_text {
@@ -65,11 +77,13 @@ impl OpenRequest {
         // The recipe is sound, so what goes wrong from here on is due to what the user brought. Its place in the task file says nothing.
         let setup = Setup::open(task, preset, &overrides, hoa_text).map_err(|error| {
             let refusal = task_refusal(error);
-            match (&self.hoa, &self.formula) {
-                (Some(_), _) => Refusal { subject: Subject::Hoa, place: Place::default(), ..refusal },
-                (_, Some(_)) => Refusal { subject: Subject::Formula, place: Place::default(), ..refusal },
-                _ => refusal,
-            }
+            let subject = match self {
+                OpenRequest { hoa: Some(_), .. } => Subject::Hoa,
+                OpenRequest { formula: Some(_), .. } => Subject::Formula,
+                OpenRequest { map: Some(_), .. } => Subject::Map,
+                _ => return refusal,
+            };
+            Refusal { subject, place: Place::default(), ..refusal }
         })?;
         let hoa = hoa_text.map_or_else(|| written(setup.automaton()), str::to_owned);
         Ok(Opened { setup, name: name.to_owned(), hoa })
@@ -81,8 +95,17 @@ fn with_formula(task: &Task, formula: &str) -> Result<Task, Refusal> {
     let mut file = task.file().clone();
     file.specification.ltl = formula.to_owned();
     file.specification.hoa = None;
-    let text = toml::to_string(&file).map_err(|e| Refusal::new(Subject::Task, e.to_string()))?;
-    Task::parse(&text, task.name()).map_err(task_refusal)
+    rewritten(task, &file)
+}
+
+/// The task with another file, on the same map.
+pub(super) fn rewritten(task: &Task, file: &TaskFile) -> Result<Task, Refusal> {
+    let text = toml::to_string(file).map_err(|e| Refusal::new(Subject::Task, e.to_string()))?;
+    let next = Task::parse(&text, task.name()).map_err(task_refusal)?;
+    Ok(match task.map() {
+        Some(map) => next.with_map(map.clone()),
+        None => next,
+    })
 }
 
 pub(super) fn read_automaton(text: &str) -> Result<Ldgba, Refusal> {

@@ -14,6 +14,8 @@ pub enum Subject {
     Formula,
     /// The automaton.
     Hoa,
+    /// A rover map, or the picture it is made of.
+    Map,
     /// A checkpoint.
     Checkpoint,
     /// None of them.

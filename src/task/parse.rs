@@ -110,8 +110,13 @@ impl Task {
 
     /// With the map that was read from [`Task::map_file`].
     #[must_use]
-    pub fn with_map(self, map: RoverMap) -> Task {
-        Task { map: Some(Arc::new(map)), ..self }
+    pub fn with_map(self, map: impl Into<Arc<RoverMap>>) -> Task {
+        Task { map: Some(map.into()), ..self }
+    }
+
+    /// The map given by [`Task::with_map`].
+    pub fn map(&self) -> Option<&Arc<RoverMap>> {
+        self.map.as_ref()
     }
 
     /// The environment.

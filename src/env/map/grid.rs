@@ -82,6 +82,11 @@ impl LabelGrid {
         self.palette.iter().copied()
     }
 
+    /// The letter of each cell, as an index into [`LabelGrid::letters`], row by row from the top.
+    pub fn indices(&self) -> &[u8] {
+        &self.cells
+    }
+
     /// How many cells have the label `index`.
     pub fn area(&self, index: usize) -> usize {
         let holds: Vec<bool> = self.palette.iter().map(|letter| letter.holds(index)).collect();
