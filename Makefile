@@ -49,8 +49,9 @@ test-rust: ## logic, in debug
 	@$(ENV) cargo test
 
 .PHONY: test-learning
-test-learning: ## kernels against burn, and learning, in release
+test-learning: ## kernels against burn, learning, and the examples, in release
 	@$(ENV) cargo test --profile quick --features burn --test kernels --test learning --test python
+	@$(ENV) for example in own_environment train_a_task; do cargo run --quiet --profile quick --features burn --example $$example; done
 
 .PHONY: test-wasm
 test-wasm: ## the WebAssembly module under Node
