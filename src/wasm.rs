@@ -5,7 +5,7 @@
 #![allow(missing_docs, reason = "what the macro makes of extern types carries no docs of its own")]
 
 use crate::agent::Replays;
-use crate::session::{self, OpenRequest, Refusal, Subject};
+use crate::session::{self, OpenRequest, Refusal, Subject, TranslationOptions};
 use js_sys::{Error, Float32Array, Object, Reflect, Uint8Array};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
@@ -14,6 +14,22 @@ use wasm_bindgen::prelude::*;
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
 import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry } from '../src/protocol.js';
+export interface TranslationOptions { state_based?: boolean; deterministic?: boolean; classify?: boolean; }
+export type TranslationVerdict = { ok: true; facts: TranslationFacts } | { ok: false; error: TranslationRefusal };
+/** Places are in UTF-16 code units of the text that `field` names. */
+export interface TranslationRefusal { field: 'task' | 'formula' | 'hoa' | 'map' | 'session'; message: string; hint: string; start: number; end: number; line: number; column: number; }
+export interface TranslationWarning {
+  kind: 'notation' | 'unsatisfiable' | 'valid' | 'unknown_proposition' | 'never_holds' | 'impossible_here' | 'lost_at_start'
+    | 'good_for_mdps' | 'mismatch' | 'reading';
+  message: string; start: number; end: number;
+}
+export interface TranslationFacts {
+  formula: string; parenthesised: string; paraphrase: string;
+  class: { name: 'safety' | 'guarantee' | 'obligation' | 'recurrence' | 'persistence' | 'reactivity'; meaning: string; exact: boolean } | null;
+  size: { states: number; unreachable: number; sinks: number; nondeterministic: number; edges: number; epsilon: number; sets: number;
+    propositions: number; deterministic: boolean; state_based: boolean; empty_language: boolean };
+  graph: Description['automaton']; hoa: string; offered: string[]; exclusive: string[][]; warnings: TranslationWarning[];
+}
 export interface Request {
   task: string; formula?: string | null; hoa?: string | null; map?: string | null; seed: bigint; preset?: string | null; overrides?: Record<string, string>;
 }
@@ -41,6 +57,10 @@ extern "C" {
     pub type JsHoaVerdict;
     #[wasm_bindgen(typescript_type = "MapVerdict")]
     pub type JsMapVerdict;
+    #[wasm_bindgen(typescript_type = "TranslationOptions")]
+    pub type JsTranslationOptions;
+    #[wasm_bindgen(typescript_type = "TranslationVerdict")]
+    pub type JsTranslationVerdict;
 }
 
 /// Runs once when the module is loaded: a panic is said in the console with its place, before the trap.
@@ -124,6 +144,47 @@ fn map_verdict(result: Result<session::MapFacts, Refusal>) -> JsMapVerdict {
     object
 }
 
+/// The automaton of a formula, for the environment of the built-in task or the task file `task` (none if it is empty).
+#[wasm_bindgen]
+pub fn translate_formula(text: &str, task: &str, options: JsTranslationOptions) -> JsTranslationVerdict {
+    verdict(translation_options(options).and_then(|options| session::translate_formula(text, task, &options)))
+}
+
+/// What is left out of the options has its default.
+fn translation_options(options: JsTranslationOptions) -> Result<TranslationOptions, Refusal> {
+    let options: JsValue = options.into();
+    if options.is_undefined() || options.is_null() {
+        return Ok(TranslationOptions::default());
+    }
+    let malformed = |e| Refusal::new(Subject::Session, format!("the options are malformed: {e}"));
+    serde_wasm_bindgen::from_value(options).map_err(malformed)
+}
+
+/// Translates formulas for one environment: cheap to ask again and again, while the user types.
+#[wasm_bindgen]
+pub struct Translator(session::Translator);
+
+#[wasm_bindgen]
+impl Translator {
+    /// For the environment of a built-in task or a task file (none if `task` is empty), with `map`, a map file, for the rover on that map.
+    pub fn of_task(task: &str, map: Option<String>) -> Result<Translator, JsValue> {
+        if task.is_empty() && map.is_none() {
+            return Ok(Translator(session::Translator::free()));
+        }
+        session::Translator::of_task(task, map.as_deref()).map(Translator).map_err(refused)
+    }
+
+    /// The verdict on a formula: its automaton, its class, warnings.
+    pub fn translate(&self, text: &str, options: JsTranslationOptions) -> JsTranslationVerdict {
+        verdict(translation_options(options).and_then(|options| self.0.translate(text, &options)))
+    }
+
+    /// The verdict on an automaton file, held against the formula `text` if that is not empty.
+    pub fn read(&self, hoa: &str, text: &str) -> JsTranslationVerdict {
+        verdict(self.0.read(hoa, text))
+    }
+}
+
 /// An open task under training.
 #[wasm_bindgen]
 pub struct Session(session::Session);
@@ -160,6 +221,11 @@ impl Session {
     /// Everything that does not change from step to step.
     pub fn describe(&self) -> JsDescription {
         plain(&self.0.describe())
+    }
+
+    /// Translates formulas for this session's environment.
+    pub fn translator(&self) -> Translator {
+        Translator(self.0.translator())
     }
 
     /// Trains for at most `steps` moves; how many were made.

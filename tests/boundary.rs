@@ -21,7 +21,7 @@ fn training_gives_finite_numbers_and_comes_out_twice() {
 #[cfg(target_arch = "wasm32")]
 mod boundary {
     use js_sys::{Array, Float32Array, JSON, Object, Reflect};
-    use ltl_rover::wasm::{Session, builtin_tasks, check_formula, check_hoa};
+    use ltl_rover::wasm::{Session, Translator, builtin_tasks, check_formula, check_hoa, translate_formula};
     use wasm_bindgen::{JsCast, JsValue};
     use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -90,5 +90,50 @@ mod boundary {
         assert_eq!(get(&check_hoa("HOA: v1").into(), "ok"), false);
         assert!(Array::from(&builtin_tasks().into()).length() >= 4);
         assert!(get(&Object::new().into(), "nothing").is_undefined());
+    }
+
+    #[wasm_bindgen_test]
+    fn formulas_are_translated_while_they_are_typed() {
+        let good: JsValue = translate_formula("G F r1 & G F r2", "ball_pass_b1", JsValue::UNDEFINED.unchecked_into()).into();
+        assert_eq!((get(&good, "ok"), get(&good, "facts.class.name")), (true.into(), "recurrence".into()));
+        assert_eq!((get(&good, "facts.size.states"), get(&good, "facts.size.sets")), (3.into(), 2.into()));
+        assert_eq!(get(&good, "facts.graph.initial"), 0);
+        assert!(get(&good, "facts.hoa").as_string().unwrap().starts_with("HOA: v1"));
+        let options = parse(r#"{ "state_based": false, "classify": false }"#);
+        let small: JsValue = translate_formula("G F r1 & G F r2", "ball_pass_b1", options.unchecked_into()).into();
+        assert_eq!((get(&small, "facts.size.states"), get(&small, "facts.class")), (1.into(), JsValue::NULL));
+        let strange = parse(r#"{ "stateBased": false }"#);
+        let refused: JsValue = translate_formula("a", "", strange.unchecked_into()).into();
+        assert!(get(&refused, "error.message").as_string().unwrap().contains("malformed"));
+
+        let translator = open(r#"{ "task": "cart_pole_c1" }"#).ok().unwrap().translator();
+        let verdict = |text: &str| JsValue::from(translator.translate(text, JsValue::NULL.unchecked_into()));
+        let unknown = verdict("□ F gren");
+        assert_eq!(
+            (get(&unknown, "facts.warnings.0.kind"), get(&unknown, "facts.warnings.0.start")),
+            ("unknown_proposition".into(), 4.into())
+        );
+        assert_eq!(get(&unknown, "facts.offered.1"), "yellow");
+        let broken = verdict("□ F");
+        assert_eq!((get(&broken, "ok"), get(&broken, "error.start")), (false.into(), 3.into()));
+        let pasted: JsValue = translator.read("HOA: v1", "").into();
+        assert_eq!(get(&pasted, "error.field"), "hoa");
+        assert!(Translator::of_task("nothing", None).is_err());
+    }
+
+    /// The longest that a page may wait between a key and the automaton, in a browser: 150 ms; here with room for a busy machine.
+    #[wasm_bindgen_test]
+    fn hard_formulas_are_given_up_in_time() {
+        let translator = Translator::of_task("", None).ok().unwrap();
+        let clauses = |n: u32| (0..n).map(|i| format!("(G F a{i} | F G b{i})")).collect::<Vec<_>>().join(" & ");
+        let nested =
+            "((((a U b) U (c U d)) U ((e U f) U (g U h))) R (((b U a) U (d U c)) U ((f U e) U (h U g)))) U G (a U X X (b R c))";
+        for text in [clauses(5), clauses(12), format!("!({})", clauses(6)), nested.into(), format!("!({nested})")] {
+            let start = js_sys::Date::now();
+            let verdict: JsValue = translator.translate(&text, JsValue::UNDEFINED.unchecked_into()).into();
+            let taken = js_sys::Date::now() - start;
+            assert!(taken < 1000.0, "{text}: {taken} ms");
+            assert!(get(&verdict, "ok").is_truthy() || get(&verdict, "error.message").as_string().unwrap().contains("allowed"));
+        }
     }
 }

@@ -56,9 +56,8 @@ fn assert_in_range(environment: &dyn Environment) {
         assert!(channel.low <= value && value <= channel.high, "{}: {} = {value} {}", spec.name, channel.name, channel.unit);
     }
     assert!(environment.labels().0 >> spec.propositions.len() == 0, "{}: a label without a proposition", spec.name);
-    if spec.exclusive {
-        assert!(environment.labels().0.count_ones() <= 1, "{} says that its labels exclude each other", spec.name);
-    }
+    let letter = environment.labels();
+    assert!(spec.letters.contains(&letter), "{} says that the letter {letter:?} never occurs", spec.name);
 }
 
 /// Walks with random actions (sometimes held, so as to get far) and calls `check` in every state; starts over at the end.

@@ -1,7 +1,7 @@
 //! The HOA reader on the project's own corpus (`specs/corpus/hoa`), on broken and random texts, and on formulas it is told to match.
 
 use ltl_rover::automaton::hoa::{self, HoaErrorKind, StreamItem};
-use ltl_rover::automaton::{Letters, Mismatch, WordBudget, matches};
+use ltl_rover::automaton::{Mismatch, WordBudget, matches, matches_where};
 use ltl_rover::ltl::Formula;
 use proptest::prelude::*;
 use std::fs;
@@ -96,7 +96,12 @@ fn automata_of_regions_are_compared_on_letters_that_occur() {
     let formula = Formula::parse("G F r1 & G F r2").unwrap();
     let found = matches(&automaton, &formula, words(100));
     assert!(matches!(found, Err(Mismatch::Word(word)) if word.text() == "cycle{{r1, r2}}"));
-    assert!(matches(&automaton, &formula, WordBudget { letters: Letters::Exclusive, ..words(1000) }).is_ok());
+    let regions = [vec!["r2".to_owned(), "r1".to_owned(), "r3".to_owned()]];
+    assert!(matches_where(&automaton, &formula, words(1000), &regions).is_ok());
+    // What does not overlap in one group may overlap with another.
+    let both = Formula::parse("G (r1 -> !x) & G F r1 & G F r2").unwrap();
+    let found = matches_where(&automaton, &both, words(1000), &regions);
+    assert!(matches!(found, Err(Mismatch::Word(word)) if word.text() == "cycle{{r1, x}; {r2}}"));
 }
 
 #[test]

@@ -1,6 +1,10 @@
 //! Every task in `specs/` opens and ticks, in each of its presets; what is wrong with a task is said at its place.
 
+use ltl_rover::automaton::translate::translate;
+use ltl_rover::automaton::{Ldgba, hoa};
 use ltl_rover::env::map::RoverMap;
+use ltl_rover::labels::Labels;
+use ltl_rover::product::LetterMap;
 use ltl_rover::task::{Override, Setup, Task, TaskError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,11 +23,17 @@ fn tasks() -> Vec<(String, String)> {
     found
 }
 
+/// The task, on the map that it names.
+fn with_its_map(name: &str, text: &str) -> Result<Task, TaskError> {
+    let task = Task::parse(text, name)?;
+    Ok(match task.map_file().and_then(|file| fs::read_to_string(folder().join(file)).ok()) {
+        Some(map) => task.with_map(RoverMap::from_json(&map, None).unwrap()),
+        None => task,
+    })
+}
+
 fn open(name: &str, text: &str, preset: &str, overrides: &[Override]) -> Result<Setup, TaskError> {
-    let mut task = Task::parse(text, name)?;
-    if let Some(map) = task.map_file().and_then(|file| fs::read_to_string(folder().join(file)).ok()) {
-        task = task.with_map(RoverMap::from_json(&map, None).unwrap());
-    }
+    let task = with_its_map(name, text)?;
     let hoa = task.file().specification.hoa.as_ref().map(|file| fs::read_to_string(folder().join(file)).unwrap());
     Setup::open(task, preset, overrides, hoa.as_deref())
 }
@@ -256,5 +266,48 @@ fn evaluations_start_in_places_of_their_own() {
         let initial = RolloutSettings { start: Start::Initial, ..task };
         assert_eq!(starts(initial).0, if name.starts_with("ball_pass") { 1 } else { 20 }, "{name}");
         assert_eq!(starts(initial).1, starts(initial).1, "{name}: the same seed gives the same start");
+    }
+}
+
+/// Both automata are deterministic and the same but for the numbers and names of their states, as far as `letters` can tell.
+fn same_but_for_numbers(one: &Ldgba, other: &Ldgba, letters: &[Labels]) -> bool {
+    let mut partner = std::collections::HashMap::from([(one.initial(), other.initial())]);
+    let mut open = vec![one.initial()];
+    while let Some(q) = open.pop() {
+        let p = partner[&q];
+        if !(one.epsilon(q).is_empty() && other.epsilon(p).is_empty()) {
+            return false;
+        }
+        for sigma in letters {
+            let (left, right) = (one.edge(q, *sigma), other.edge(p, *sigma));
+            let known = partner.get(&left.target).copied();
+            if left.marks != right.marks || known.is_some_and(|known| known != right.target) {
+                return false;
+            }
+            if known.is_none() {
+                partner.insert(left.target, right.target);
+                open.push(left.target);
+            }
+        }
+    }
+    let images: std::collections::HashSet<_> = partner.values().collect();
+    one.sets() == other.sets() && images.len() == partner.len() && (partner.len(), partner.len()) == (one.len(), other.len())
+}
+
+#[test]
+fn the_shipped_automata_are_the_translations() {
+    for (name, text) in tasks() {
+        let task = with_its_map(&name, &text).unwrap();
+        let Some(hoa_name) = task.file().specification.hoa.clone() else { continue };
+        let shipped = hoa::read(&fs::read_to_string(folder().join(hoa_name)).unwrap()).unwrap().automaton;
+        let environment = task.environment().unwrap();
+        let spec = environment.spec();
+        let names = task.formula().propositions();
+        let exclusive = ltl_rover::task::exclusive(&names, spec, &task.file().specification.labels);
+        let translated = translate(task.formula(), &ltl_rover::task::options(exclusive)).unwrap();
+        assert_eq!(translated.propositions(), shipped.propositions(), "{name}");
+        let map = LetterMap::new(shipped.propositions(), spec, &task.file().specification.labels).unwrap();
+        let letters: Vec<Labels> = spec.letters.iter().map(|letter| map.letter(*letter)).collect();
+        assert!(same_but_for_numbers(&translated, &shipped, &letters), "{name}\n{}\n{}", translated.dot(), shipped.dot());
     }
 }

@@ -4,5 +4,6 @@ mod translate {
     pub mod language;
     pub mod options;
     pub mod references;
+    pub mod typing;
     pub mod words;
 }

@@ -2,7 +2,6 @@
 //! ones, and words along the edges of the automaton.
 
 use super::ldgba::{Ldgba, StateId};
-use super::state_based::Letters;
 use crate::labels::{Labels, Propositions, PropositionsError};
 use crate::ltl::{Evaluator, Formula, Lasso};
 use crate::rng::{Purpose, Rng};
@@ -18,14 +17,12 @@ pub struct WordBudget {
     pub random: usize,
     /// The seed of the random words.
     pub seed: u64,
-    /// Which letters the words consist of; [`Letters::Exclusive`] where the propositions are regions that do not overlap.
-    pub letters: Letters,
 }
 
 impl Default for WordBudget {
     /// 20 000 short words and 4 000 random ones.
     fn default() -> WordBudget {
-        WordBudget { exhaustive: 20_000, random: 4_000, seed: 0, letters: Letters::All }
+        WordBudget { exhaustive: 20_000, random: 4_000, seed: 0 }
     }
 }
 
@@ -89,6 +86,20 @@ pub enum Mismatch {
 /// # Errors
 /// [`Mismatch::Word`] with a shortest word among those tried (shortened further if it was found at random).
 pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Result<Matched, Mismatch> {
+    matches_where(automaton, formula, budget, &[])
+}
+
+/// As [`matches`], on words in which at most one proposition of each of the groups `exclusive` holds at a time, such as regions that do not
+/// overlap. A group may have names that neither automaton nor formula has; groups do not share a name.
+///
+/// # Errors
+/// As [`matches`].
+pub fn matches_where(
+    automaton: &Ldgba,
+    formula: &Formula,
+    budget: WordBudget,
+    exclusive: &[Vec<String>],
+) -> Result<Matched, Mismatch> {
     let mut names: Vec<String> = automaton.propositions().iter().map(str::to_owned).collect();
     names.extend(formula.propositions().into_iter().filter(|name| automaton.propositions().index(name).is_none()));
     let propositions = Propositions::new(names).map_err(Mismatch::Propositions)?;
@@ -100,7 +111,7 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
         Mismatch::Word(Box::new(CounterExample { word, propositions: propositions.clone(), accepted }))
     };
 
-    let alphabet = Alphabet { propositions: propositions.len(), letters: budget.letters };
+    let alphabet = Alphabet::new(&propositions, exclusive);
     let (mut words, mut length) = (0, 0);
     while let Some(more) = alphabet.count(length + 1).filter(|more| *more <= budget.exhaustive - words && length < MAX_LENGTH) {
         length += 1;
@@ -126,31 +137,47 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
 /// The letters of words.
 struct Alphabet {
     propositions: usize,
-    letters: Letters,
+    /// The propositions, in groups of which at most one holds; most groups have one member.
+    groups: Vec<Vec<usize>>,
 }
 
 impl Alphabet {
+    fn new(propositions: &Propositions, exclusive: &[Vec<String>]) -> Alphabet {
+        let indices = |group: &Vec<String>| group.iter().filter_map(|name| propositions.index(name)).collect::<Vec<_>>();
+        let mut groups: Vec<Vec<usize>> = exclusive.iter().map(indices).collect();
+        let alone: Vec<usize> = (0..propositions.len()).filter(|i| !groups.iter().flatten().any(|j| i == j)).collect();
+        groups.extend(alone.into_iter().map(|i| vec![i]));
+        Alphabet { propositions: propositions.len(), groups }
+    }
+
     /// How many letters there are, if that fits 32 bits.
     fn size(&self) -> Option<u32> {
-        let propositions = u32::try_from(self.propositions).ok()?;
-        match self.letters {
-            Letters::All => 1u32.checked_shl(propositions),
-            Letters::Exclusive => Some(propositions + 1),
-        }
+        self.groups.iter().try_fold(1u32, |size, group| size.checked_mul(u32::try_from(group.len() + 1).ok()?))
     }
 
-    fn letter(&self, number: u64) -> Labels {
-        match (self.letters, number) {
-            (Letters::All, _) => Labels(number),
-            (Letters::Exclusive, 0) => Labels::EMPTY,
-            (Letters::Exclusive, _) => Labels::only(number as usize - 1),
+    fn letter(&self, mut number: u64) -> Labels {
+        let mut letter = Labels::EMPTY;
+        for group in &self.groups {
+            let choices = group.len() as u64 + 1;
+            if let Some(held) = (number % choices).checked_sub(1) {
+                letter = letter.with(group[held as usize], true);
+            }
+            number /= choices;
         }
+        letter
     }
 
-    /// `sigma`, or, if it cannot occur, a letter with one of its propositions.
+    /// `sigma`, with one proposition left of every group of which several hold.
     fn fitted(&self, sigma: Labels, rng: &mut Rng) -> Labels {
-        let held: Vec<usize> = (0..self.propositions).filter(|i| sigma.holds(*i)).collect();
-        if self.letters == Letters::All || held.len() < 2 { sigma } else { Labels::only(held[rng.below(held.len())]) }
+        let mut fitted = sigma;
+        for group in self.groups.iter().filter(|group| group.len() > 1) {
+            let held: Vec<usize> = group.iter().copied().filter(|i| sigma.holds(*i)).collect();
+            if held.len() > 1 {
+                let kept = held[rng.below(held.len())];
+                fitted = held.into_iter().fold(fitted, |letter, i| letter.with(i, i == kept));
+            }
+        }
+        fitted
     }
 
     /// The number of lassos with |u| + |v| = `length`, if it fits 32 bits.

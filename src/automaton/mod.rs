@@ -21,6 +21,7 @@ mod state_based;
 mod statistics;
 pub mod translate;
 mod trim;
+mod within;
 mod word;
 
 pub use classify::{Class, Classification, ClassifyError, classify};
@@ -31,7 +32,7 @@ pub use guard::{Cube, Effort, Guard, TooComplex};
 pub use intersection::{IntersectionError, MAX_PAIRS, Runs, common_word, common_word_of};
 pub use ldgba::{Edge, Ldgba, Marks, StateId};
 pub use ldgba_error::LdgbaError;
-pub use matches::{CounterExample, Matched, Mismatch, WordBudget, matches};
+pub use matches::{CounterExample, Matched, Mismatch, WordBudget, matches, matches_where};
 pub use scc::{Components, can_reach, components};
 pub use state_based::Letters;
 pub use statistics::Statistics;

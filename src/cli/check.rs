@@ -2,8 +2,9 @@
 
 use super::failure::Failure;
 use super::output::{out, outln};
+use super::translate::names;
 use crate::automaton::hoa::{self, AcceptanceForm, EpsilonForm, HoaError, Reading, StreamItem, WriteOptions};
-use crate::automaton::{Letters, Matched, Mismatch, Statistics, WordBudget, matches};
+use crate::automaton::{Letters, Matched, Mismatch, Statistics, WordBudget, matches_where};
 use crate::ltl::{Formula, Parentheses, Style};
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -41,9 +42,10 @@ pub struct Check {
     /// How many random words are tried against a formula, beside all short ones.
     #[arg(long, default_value_t = WordBudget::default().random, value_name = "N")]
     pub words: usize,
-    /// Against a formula, try only words in which at most one proposition holds at a time, as in regions that do not overlap.
-    #[arg(long)]
-    pub exclusive: bool,
+    /// Against a formula, try only words in which at most one of these propositions holds at a time, such as regions that do not overlap. May
+    /// be given several times.
+    #[arg(long, value_name = "A,B,…")]
+    pub exclusive: Vec<String>,
     /// The seed of the random words.
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
@@ -146,9 +148,13 @@ impl Check {
     fn report(&self, name: &str, reading: &Reading, formula: Option<&Formula>) -> Result<u8, Failure> {
         let automaton = &reading.automaton;
         let statistics = automaton.statistics();
-        let letters = if self.exclusive { Letters::Exclusive } else { Letters::All };
-        let budget = WordBudget { random: self.words, seed: self.seed, letters, ..WordBudget::default() };
-        let matched = formula.map(|formula| matches(automaton, formula, budget));
+        let exclusive: Vec<Vec<String>> = self.exclusive.iter().map(|group| names(group)).collect();
+        let mut seen = std::collections::HashSet::new();
+        if let Some(twice) = exclusive.iter().flatten().find(|name| !seen.insert(*name)) {
+            return Err(Failure::input(format!("--exclusive names `{twice}` twice; groups must not overlap")));
+        }
+        let budget = WordBudget { random: self.words, seed: self.seed, ..WordBudget::default() };
+        let matched = formula.map(|formula| matches_where(automaton, formula, budget, &exclusive));
         let code = u8::from(matches!(matched, Some(Err(_))));
         if self.json {
             let notes: Vec<String> = reading.notes.iter().map(ToString::to_string).collect();

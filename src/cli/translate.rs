@@ -175,6 +175,6 @@ pub(super) fn formulas_of(path: &Path) -> Result<Vec<(String, String)>, Failure>
 }
 
 /// The names of a list separated by commas.
-fn names(list: &str) -> Vec<String> {
+pub(super) fn names(list: &str) -> Vec<String> {
     list.split(',').map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect()
 }

@@ -72,7 +72,7 @@ impl BallPass {
             observation: 4,
             propositions: Propositions::new(["r1", "r2"]).expect("two different names"),
             meanings: CENTRES.map(touches).to_vec(),
-            exclusive: true,
+            letters: vec![Labels::EMPTY, Labels::only(0), Labels::only(1)],
             dt: DT,
         };
         BallPass { spec, state: [START[0], START[1], 0.0, 0.0] }

@@ -79,7 +79,8 @@ impl CartPole {
                 format!("the cart's x lies in [{}, {}] m", BANDS[1][0], BANDS[1][1]),
                 format!("the cart is more than {TRACK} m from the middle, or the pole leans more than 12°"),
             ],
-            exclusive: false,
+            // The pole may fall in either band.
+            letters: [0b000, 0b001, 0b010, 0b100, 0b101, 0b110].map(Labels).to_vec(),
             dt: DT,
         };
         CartPole { spec, state: [0.0; 4] }

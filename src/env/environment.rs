@@ -46,10 +46,33 @@ pub struct EnvSpec {
     pub propositions: Propositions,
     /// A sentence for each proposition: when it holds.
     pub meanings: Vec<String>,
-    /// Whether at most one proposition holds in any state (disjoint regions).
-    pub exclusive: bool,
+    /// The letters L(s) that some state s has, each once. Groups of propositions that exclude one another, and propositions that hold nowhere,
+    /// follow from them.
+    pub letters: Vec<Labels>,
     /// Seconds of simulated time per step; 0 where time has no unit.
     pub dt: f32,
+}
+
+impl EnvSpec {
+    /// Groups of at least two propositions of which at most one holds at a time, such as regions that do not overlap. Each proposition is in one
+    /// group at most: in order, it joins the first group whose members never hold together with it.
+    pub fn disjoint(&self) -> Vec<Vec<usize>> {
+        let together = |i: usize, j: usize| self.letters.iter().any(|letter| letter.holds(i) && letter.holds(j));
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for i in 0..self.propositions.len() {
+            match groups.iter_mut().find(|group| group.iter().all(|j| !together(i, *j))) {
+                Some(group) => group.push(i),
+                None => groups.push(vec![i]),
+            }
+        }
+        groups.retain(|group| group.len() > 1);
+        groups
+    }
+
+    /// Whether proposition `index` holds in some state.
+    pub fn can_hold(&self, index: usize) -> bool {
+        self.letters.iter().any(|letter| letter.holds(index))
+    }
 }
 
 /// How a step ended.

@@ -71,7 +71,7 @@ impl Islands {
             observation: 2,
             propositions: Propositions::new(["a", "b"]).expect("two different names"),
             meanings: CENTRES.map(meaning).to_vec(),
-            exclusive: true,
+            letters: vec![Labels::EMPTY, Labels::only(0), Labels::only(1)],
             dt: DT,
         };
         Islands { spec, current, state: CENTRES[0] }

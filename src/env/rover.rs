@@ -38,7 +38,7 @@ impl Rover {
             observation: 2,
             propositions: map.propositions.clone(),
             meanings: map.meanings.clone(),
-            exclusive: map.grid.letters().all(|letter| letter.0.count_ones() <= 1),
+            letters: map.grid.letters().collect(),
             dt: 0.0,
         };
         let state = map.grid.start(0.5, [0.5, 0.5]);

@@ -50,7 +50,7 @@ impl FormulaFacts {
 }
 
 /// The first place where `name` stands as a word of its own.
-fn occurrence(text: &str, name: &str) -> Option<Span> {
+pub(super) fn occurrence(text: &str, name: &str) -> Option<Span> {
     let word = |c: char| c.is_alphanumeric() || c == '_';
     let alone = |start: usize| {
         let end = start + name.len();

@@ -7,6 +7,7 @@ use super::edges::EdgeIndex;
 use super::frame::{Counters, FrameWriter, Layout, Source};
 use super::open::{OpenRequest, Opened};
 use super::refusal::{Refusal, Subject};
+use super::translation::Translator;
 use super::trial::{Trial, TrialProgress};
 use super::{FormulaFacts, builtin};
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
@@ -153,6 +154,12 @@ impl Session {
             layout: self.layout.clone(),
             request: self.request.clone(),
         }
+    }
+
+    /// Translates formulas for the environment of this session.
+    pub fn translator(&self) -> Translator {
+        let labels = &self.setup.task().file().specification.labels;
+        Translator::of_environment(self.run.trainer().product().environment(), labels)
     }
 
     /// Trains for at most `steps` moves and the updates after them; the number of moves made. While a periodic evaluation of the

@@ -8,8 +8,8 @@
 //! - now and then, [`Curves`] and [`ModuleStatistics`];
 //! - on demand, an [`EpisodeTrace`] (frames of a greedy episode, row by row), a [`TrialProgress`], a checkpoint.
 //!
-//! Texts that a user types are judged by [`check_formula`], [`check_hoa`] and [`check_map`]; every refusal is a [`Refusal`] with its
-//! place. [`map_of_picture`] makes a map of a picture's flat colours.
+//! Texts that a user types are judged by [`check_formula`], [`check_hoa`] and [`check_map`], and translated by a [`Translator`]; every refusal
+//! is a [`Refusal`] with its place. [`map_of_picture`] makes a map of a picture's flat colours.
 
 mod builtin;
 mod check;
@@ -23,7 +23,7 @@ mod live;
 mod open;
 mod own_map;
 mod refusal;
-
+mod translation;
 mod trial;
 
 pub use builtin::{TaskEntry, builtin_tasks};
@@ -36,4 +36,5 @@ pub use live::{EpisodeTrace, ModuleStatistics, Session};
 pub use open::OpenRequest;
 pub use own_map::{MapFacts, MapLabel, check_map, map_of_picture};
 pub use refusal::{Place, Refusal, Subject};
+pub use translation::{ClassFacts, Doubt, TranslationFacts, TranslationOptions, Translator, Warning, translate_formula};
 pub use trial::{Trial, TrialProgress};

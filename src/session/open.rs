@@ -109,7 +109,11 @@ pub(super) fn rewritten(task: &Task, file: &TaskFile) -> Result<Task, Refusal> {
 }
 
 pub(super) fn read_automaton(text: &str) -> Result<Ldgba, Refusal> {
-    hoa::read(text).map(|reading| reading.automaton).map_err(|error| {
+    read_hoa(text).map(|reading| reading.automaton)
+}
+
+pub(super) fn read_hoa(text: &str) -> Result<hoa::Reading, Refusal> {
+    hoa::read(text).map_err(|error| {
         let span = error.place().span;
         Refusal::new(Subject::Hoa, error.message()).with_hint(error.suggestion()).at(Place::of(text, span.start..span.end))
     })

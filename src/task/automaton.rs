@@ -3,18 +3,18 @@
 use super::error::TaskError;
 use super::parse::Task;
 use crate::automaton::translate::{Acceptance, TranslateOptions, translate};
-use crate::automaton::{Ldgba, Letters, WordBudget, hoa, matches};
+use crate::automaton::{Ldgba, WordBudget, hoa, matches_where};
 use crate::env::EnvSpec;
-use crate::product::LetterMap;
+use crate::product::{LetterMap, Renaming};
 use std::sync::Arc;
 
 /// Words that an automaton is held against its formula on: a set-up should not take long.
-const BUDGET: WordBudget = WordBudget { exhaustive: 3_000, random: 1_000, seed: 0, letters: Letters::All };
+const BUDGET: WordBudget = WordBudget { exhaustive: 3_000, random: 1_000, seed: 0 };
 
 /// The automaton in `text`, or the translation of the formula.
 ///
-/// An automaton is held against the formula on words in which regions that never overlap do not hold together. Where the environment
-/// does not say that of all its labels, an automaton that reads overlaps in its own way is accepted as well.
+/// An automaton is held against the formula on words in which labels that exclude one another in the environment never hold together; what it
+/// does on others does not matter.
 ///
 /// # Errors
 /// A text that is no automaton, at its place; an automaton that differs from the formula, with a word; a formula that is too hard.
@@ -22,9 +22,11 @@ pub(super) fn automaton(task: &Task, text: Option<&str>) -> Result<Arc<Ldgba>, T
     let place = task.place(&["specification", "ltl"]);
     let environment = task.environment()?;
     let spec = environment.spec();
+    let renaming = &task.file.specification.labels;
     let Some(text) = text else {
         let error = |message| TaskError::new(&task.name, &task.text, place, message);
-        let made = translate(&task.formula, &options(task, spec)).map_err(|e| error(e.to_string()))?;
+        let exclusive = exclusive(&task.formula.propositions(), spec, renaming);
+        let made = translate(&task.formula, &options(exclusive)).map_err(|e| error(e.to_string()))?;
         return Ok(Arc::new(made));
     };
     let name = task.file.specification.hoa.as_deref().unwrap_or("automaton");
@@ -33,13 +35,10 @@ pub(super) fn automaton(task: &Task, text: Option<&str>) -> Result<Arc<Ldgba>, T
         TaskError::new(name, text, Some(span.start..span.end), e.message()).with_help(e.suggestion().map(str::to_owned))
     })?;
     // Unknown labels have an error of their own, with a better place than a word on which two languages differ.
-    let known = LetterMap::new(read.automaton.propositions(), spec, &task.file.specification.labels).is_ok();
-    if known {
-        let exclusive = WordBudget { letters: Letters::Exclusive, ..BUDGET };
-        let budget = if spec.exclusive { exclusive } else { BUDGET };
-        let held = matches(&read.automaton, &task.formula, budget)
-            .or_else(|e| if spec.exclusive { Err(e) } else { matches(&read.automaton, &task.formula, exclusive) });
-        held.map_err(|e| {
+    if LetterMap::new(read.automaton.propositions(), spec, renaming).is_ok() {
+        let mut names = task.formula.propositions();
+        names.extend(read.automaton.propositions().iter().map(str::to_owned));
+        matches_where(&read.automaton, &task.formula, BUDGET, &exclusive(&names, spec, renaming)).map_err(|e| {
             let place = task.place(&["specification", "hoa"]).or(place);
             TaskError::new(&task.name, &task.text, place, format!("`{name}` is not the automaton of this formula: {e}"))
         })?;
@@ -47,23 +46,26 @@ pub(super) fn automaton(task: &Task, text: Option<&str>) -> Result<Arc<Ldgba>, T
     Ok(Arc::new(read.automaton))
 }
 
-/// How a formula is translated for an environment: the paper's form, with marks on states, of which modules are made.
-fn options(task: &Task, spec: &EnvSpec) -> TranslateOptions {
-    let exclusive = if spec.exclusive { vec![regions(task)] } else { vec![] };
+/// How a formula is translated for a task: the paper's form, with marks on states, of which modules are made.
+pub fn options(exclusive: Vec<Vec<String>>) -> TranslateOptions {
     TranslateOptions { acceptance: Acceptance::State, exclusive, ..TranslateOptions::default() }
 }
 
-/// The formula's propositions, which stand for disjoint regions: one group, unless several stand for the same region.
-fn regions(task: &Task) -> Vec<String> {
-    let labels = &task.file.specification.labels;
+/// Groups of the propositions `names` of which at most one holds at a time in an environment: those that stand for labels that exclude one
+/// another. Of several that stand for the same label only the first is in a group; names that stand for no label are in none.
+pub fn exclusive(names: &[String], environment: &EnvSpec, renaming: &Renaming) -> Vec<Vec<String>> {
     let mut met = vec![];
-    let mut group = vec![];
-    for name in task.formula.propositions() {
-        let label = labels.get(&name).unwrap_or(&name).clone();
-        if !met.contains(&label) {
+    let mut sources = vec![];
+    for name in names {
+        let label = environment.propositions.index(renaming.get(name).unwrap_or(name));
+        if let Some(label) = label.filter(|label| !met.contains(label)) {
             met.push(label);
-            group.push(name);
+            sources.push((label, name));
         }
     }
-    group
+    let members = |group: Vec<usize>| {
+        let inside = sources.iter().filter(|(label, _)| group.contains(label));
+        inside.map(|(_, name)| (*name).clone()).collect::<Vec<String>>()
+    };
+    environment.disjoint().into_iter().map(members).filter(|group| group.len() > 1).collect()
 }

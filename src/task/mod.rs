@@ -11,6 +11,7 @@ mod parts;
 mod preset;
 mod setup;
 
+pub use automaton::{exclusive, options};
 pub use error::TaskError;
 pub use file::{EnvironmentSection, EvaluationSection, SpecificationSection, TaskFile};
 pub use parse::{MAX_TEXT, Override, Task};
