@@ -31,7 +31,7 @@ impl Shuttle {
             observation: 1,
             propositions: Propositions::new(["west", "east"]).expect("two different names"),
             meanings: vec!["x is at most −0.8 km".into(), "x is at least 0.8 km".into()],
-            exclusive: true,
+            letters: vec![Labels::EMPTY, Labels::only(0), Labels::only(1)],
             dt: 0.0,
         };
         Shuttle { spec, state: [0.0] }
