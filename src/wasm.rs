@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry } from '../src/protocol.js';
+import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry, Word, WordReading } from '../src/protocol.js';
 export interface TranslationOptions { state_based?: boolean; deterministic?: boolean; classify?: boolean; }
 export type TranslationVerdict = { ok: true; facts: TranslationFacts } | { ok: false; error: TranslationRefusal };
 /** Places are in UTF-16 code units of the text that `field` names. */
@@ -61,6 +61,10 @@ extern "C" {
     pub type JsTranslationOptions;
     #[wasm_bindgen(typescript_type = "TranslationVerdict")]
     pub type JsTranslationVerdict;
+    #[wasm_bindgen(typescript_type = "Word")]
+    pub type JsWord;
+    #[wasm_bindgen(typescript_type = "WordReading")]
+    pub type JsWordReading;
 }
 
 /// Runs once when the module is loaded: a panic is said in the console with its place, before the trap.
@@ -185,6 +189,17 @@ impl Translator {
     }
 }
 
+fn word(given: JsWord) -> Result<session::Word, JsValue> {
+    serde_wasm_bindgen::from_value(given.into())
+        .map_err(|e| refused(Refusal::new(Subject::Session, format!("the word is malformed: {e}"))))
+}
+
+/// Whether an infinite word satisfies a formula; throws what is wrong with either.
+#[wasm_bindgen]
+pub fn judge_word(formula: &str, given: JsWord) -> Result<bool, JsValue> {
+    session::judge_word(formula, &word(given)?).map_err(refused)
+}
+
 /// An open task under training.
 #[wasm_bindgen]
 pub struct Session(session::Session);
@@ -284,6 +299,14 @@ impl Session {
     /// One step under the user's control, or along the ε-jump to `jump`; the frame after it.
     pub fn drive(&mut self, control: &[f32], jump: Option<u16>) -> Result<Float32Array, JsValue> {
         self.0.drive(control, jump).map(|frame| Float32Array::from(frame.as_slice())).map_err(refused)
+    }
+
+    /// Reads an infinite word letter by letter; throws what is wrong with it.
+    pub fn read_word(&self, given: JsWord) -> Result<JsWordReading, JsValue> {
+        let reading = self.0.read_word(&word(given)?).map_err(refused)?;
+        let object: JsValue = plain(&reading);
+        set(&object, "data", Float32Array::from(reading.data.as_slice()));
+        Ok(object.unchecked_into())
     }
 
     /// The learning curves so far.

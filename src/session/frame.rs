@@ -45,7 +45,7 @@ impl Layout {
     ///
     /// | field | numbers | meaning |
     /// |---|---|---|
-    /// | `source` | 1 | a [`Source`]: 0 training, 1 greedy episode, 2 driven by hand |
+    /// | `source` | 1 | a [`Source`]: 0 training, 1 greedy episode, 2 driven by hand, 3 a word |
     /// | `step` | 2 | counter: environment steps of training so far |
     /// | `updates` | 2 | counter: gradient updates so far |
     /// | `episode` | 2 | counter: the episode of training, from 0 |
@@ -123,6 +123,19 @@ pub enum Source {
     Greedy = 1,
     /// An episode that the user drives.
     Driven = 2,
+    /// A word that is read without an environment.
+    Word = 3,
+}
+
+/// Where a product stands, as a frame says it.
+pub(super) struct Place<'a> {
+    pub at: EmbeddedState,
+    /// The targets of the ε-moves that can be made.
+    pub jumps: &'a [StateId],
+    pub rounds: u32,
+    pub labels: Labels,
+    pub module: Option<usize>,
+    pub episode_step: u32,
 }
 
 /// Counters of training that every frame carries.
@@ -222,17 +235,29 @@ impl FrameWriter {
 
     /// Writes where the product stands after a start or a step.
     pub fn product(&mut self, product: &EpMdp, module: Option<usize>, episode_step: u32, control: &[f32]) {
-        let EmbeddedState { q, frontier, unvisited } = product.at();
-        self.put("episode_step", &[episode_step as f32]);
-        self.put("rounds", &[product.rounds().completed() as f32]);
-        self.put("q", &[f32::from(q)]);
-        self.put("module", &[module.map_or(-1.0, |m| m as f32)]);
-        self.marks("frontier", frontier);
-        self.states("unvisited", unvisited.iter());
-        self.states("jumps", product.epsilon_moves().iter().copied());
-        self.letter(product.environment().labels());
+        self.place(&Place {
+            at: product.at(),
+            jumps: product.epsilon_moves(),
+            rounds: product.rounds().completed(),
+            labels: product.environment().labels(),
+            module,
+            episode_step,
+        });
         self.put("state", product.environment().state());
         self.put("action", control);
+    }
+
+    /// Writes where automaton, frontier and labels stand.
+    pub(super) fn place(&mut self, place: &Place<'_>) {
+        let EmbeddedState { q, frontier, unvisited } = place.at;
+        self.put("episode_step", &[place.episode_step as f32]);
+        self.put("rounds", &[place.rounds as f32]);
+        self.put("q", &[f32::from(q)]);
+        self.put("module", &[place.module.map_or(-1.0, |m| m as f32)]);
+        self.marks("frontier", frontier);
+        self.states("unvisited", unvisited.iter());
+        self.states("jumps", place.jumps.iter().copied());
+        self.letter(place.labels);
     }
 
     /// Writes the losses of an update.

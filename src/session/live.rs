@@ -9,6 +9,7 @@ use super::open::{OpenRequest, Opened};
 use super::refusal::{Refusal, Subject};
 use super::translation::Translator;
 use super::trial::{Trial, TrialProgress};
+use super::word::{self, Word, WordReading};
 use super::{FormulaFacts, builtin};
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
 use crate::ltl::Formula;
@@ -336,6 +337,18 @@ impl Session {
         let drive = self.drive.as_mut().ok_or_else(|| Refusal::new(Subject::Session, "no episode was begun"))?;
         drive.step(control, jump, &self.edges)?;
         Ok(drive.frame().to_vec())
+    }
+
+    /// Reads an infinite word letter by letter with the automaton, the frontier and the reward of this session.
+    ///
+    /// # Errors
+    /// A word that is none, a proposition that the environment does not have, or an ε-jump that does not exist.
+    pub fn read_word(&self, word: &Word) -> Result<WordReading, Refusal> {
+        let specification = &self.setup.task().file().specification;
+        let formula = Formula::parse(&specification.ltl).expect("the task's formula was parsed when it was opened");
+        let product = self.run.trainer().product();
+        let reward = self.setup.reward().as_ref();
+        word::read(product, reward, (&self.layout, &self.edges), (&formula, &specification.labels), word)
     }
 
     /// The learning curves so far.

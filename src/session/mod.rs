@@ -8,6 +8,7 @@
 //! - now and then, [`Curves`] and [`ModuleStatistics`];
 //! - on demand, an [`EpisodeTrace`] (frames of a greedy episode, row by row), a [`TrialProgress`], a checkpoint.
 //!
+//! Words without an environment are read letter by letter ([`Session::read_word`]) and judged by a formula alone ([`judge_word`]).
 //! Texts that a user types are judged by [`check_formula`], [`check_hoa`] and [`check_map`], and translated by a [`Translator`]; every refusal
 //! is a [`Refusal`] with its place. [`map_of_picture`] makes a map of a picture's flat colours.
 
@@ -25,6 +26,7 @@ mod own_map;
 mod refusal;
 mod translation;
 mod trial;
+mod word;
 
 pub use builtin::{TaskEntry, builtin_tasks};
 pub use check::{FormulaFacts, HoaFacts, Remark, check_formula, check_hoa};
@@ -38,3 +40,4 @@ pub use own_map::{MapFacts, MapLabel, check_map, map_of_picture};
 pub use refusal::{Place, Refusal, Subject};
 pub use translation::{ClassFacts, Doubt, TranslationFacts, TranslationOptions, Translator, Warning, translate_formula};
 pub use trial::{Trial, TrialProgress};
+pub use word::{Word, WordReading, judge_word};
