@@ -87,6 +87,23 @@
  */
 
 /**
+ * An infinite word: its letters, each the propositions that hold; the letter that follows the last one; ε-jumps, each before which
+ * letter (counted on through the repetitions) and to which state.
+ * @typedef {{ letters: string[][], back: number, jumps?: [number, number][] }} Word
+ */
+/**
+ * A word that was read: a frame before the first letter, then one per letter and per jump, until the run repeats itself from row `back`.
+ * @typedef {object} WordReading
+ * @property {boolean} satisfied       whether the word satisfies the formula, by the logic alone
+ * @property {boolean} accepted        whether the automaton accepts it, with the best jumps
+ * @property {boolean} run_accepting   whether the run with the word's own jumps is accepting
+ * @property {number} rows
+ * @property {number} back
+ * @property {number[]} positions      per row the letter read last; −1 before the first
+ * @property {Float32Array} data
+ */
+
+/**
  * What the page asks of the worker. Each command is answered by one `done` or `failed` reply with its `id`.
  * @typedef {{ kind: 'open', request: OpenRequest }
  *   | { kind: 'train', pace: number }
@@ -100,6 +117,8 @@
  *   | { kind: 'evaluate', runs: number }
  *   | { kind: 'check_formula', text: string }
  *   | { kind: 'check_hoa', text: string }
+ *   | { kind: 'read_word', word: Word }
+ *   | { kind: 'judge_word', formula: string, word: Word }
  *   | { kind: 'save', form: 'whole' | 'small' | 'policy' }
  *   | { kind: 'restore', bytes: Uint8Array }} Command
  */

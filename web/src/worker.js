@@ -2,7 +2,7 @@
 /// <reference lib="webworker" />
 // The worker: owns one session and the clock. Trains in slices of about 16 ms and listens to commands between them.
 
-import init, { Session, builtin_tasks, check_formula, check_hoa } from '../pkg/ltl_rover.js';
+import init, { Session, builtin_tasks, check_formula, check_hoa, judge_word } from '../pkg/ltl_rover.js';
 import { END, Frame, located } from './protocol.js';
 
 /** @typedef {import('./protocol.js').Command} Command */
@@ -243,6 +243,10 @@ function obey(command) {
       return check_formula(command.text, propositions);
     case 'check_hoa':
       return check_hoa(command.text);
+    case 'read_word':
+      return present().read_word(command.word);
+    case 'judge_word':
+      return judge_word(command.formula, command.word);
     case 'save':
       return SAVERS[command.form](present());
   }

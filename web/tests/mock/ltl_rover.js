@@ -79,6 +79,10 @@ export function check_hoa(text) {
   return { ok: false, error: { message: 'an automaton begins with "HOA: v1"', hint: '', start: 0, end: 1, line: 1, column: 1 } };
 }
 
+export function judge_word() {
+  return true;
+}
+
 export function builtin_tasks() {
   return TASKS;
 }
@@ -142,6 +146,13 @@ export class Session {
   }
   frame() {
     return row(this.steps % 1200, this.steps);
+  }
+  /** @param {import('../../src/protocol.js').Word} word */
+  read_word(word) {
+    const rows = word.letters.length + 1;
+    const data = new Float32Array(rows * LAYOUT.length);
+    const positions = Array.from({ length: rows }, (_, k) => k - 1);
+    return { satisfied: true, accepted: true, run_accepting: true, rows, back: word.back + 1, positions, data };
   }
   /** @param {bigint} _index */
   rollout(_index) {
