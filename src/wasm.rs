@@ -5,15 +5,15 @@
 #![allow(missing_docs, reason = "what the macro makes of extern types carries no docs of its own")]
 
 use crate::agent::Replays;
-use crate::session::{self, OpenRequest, Refusal, Subject, TranslationOptions};
-use js_sys::{Error, Float32Array, Object, Reflect, Uint8Array};
+use crate::session::{self, EpisodeTrace, OpenRequest, Refusal, Subject, TranslationOptions, ValueMapRequest};
+use js_sys::{Array, Error, Float32Array, Object, Reflect, Uint8Array};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-import type { Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry, Word, WordReading } from '../src/protocol.js';
+import type { ComparisonVerdict, Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry, ValueMap, ValueMapRequest, Word, WordReading } from '../src/protocol.js';
 export interface TranslationOptions { state_based?: boolean; deterministic?: boolean; classify?: boolean; }
 export type TranslationVerdict = { ok: true; facts: TranslationFacts } | { ok: false; error: TranslationRefusal };
 /** Places are in UTF-16 code units of the text that `field` names. */
@@ -65,6 +65,12 @@ extern "C" {
     pub type JsWord;
     #[wasm_bindgen(typescript_type = "WordReading")]
     pub type JsWordReading;
+    #[wasm_bindgen(typescript_type = "ComparisonVerdict")]
+    pub type JsComparisonVerdict;
+    #[wasm_bindgen(typescript_type = "ValueMapRequest")]
+    pub type JsValueMapRequest;
+    #[wasm_bindgen(typescript_type = "ValueMap")]
+    pub type JsValueMap;
 }
 
 /// Runs once when the module is loaded: a panic is said in the console with its place, before the trap.
@@ -105,6 +111,15 @@ fn verdict<T: JsCast>(result: Result<impl Serialize, Refusal>) -> T {
         Ok(facts) => set(&object, "facts", plain::<JsValue>(&facts)),
         Err(refusal) => set(&object, "error", plain::<JsValue>(&refusal)),
     }
+    object.unchecked_into()
+}
+
+fn episode(trace: &EpisodeTrace) -> JsEpisode {
+    let object = Object::new();
+    set(&object, "rows", trace.rows as f64);
+    set(&object, "data", Float32Array::from(trace.data.as_slice()));
+    set(&object, "rounds", trace.rounds);
+    set(&object, "success", trace.success);
     object.unchecked_into()
 }
 
@@ -187,6 +202,11 @@ impl Translator {
     pub fn read(&self, hoa: &str, text: &str) -> JsTranslationVerdict {
         verdict(self.0.read(hoa, text))
     }
+
+    /// The verdict on an automaton file held against a formula: equal, or a word on which they differ.
+    pub fn compare(&self, formula: &str, hoa: &str) -> JsComparisonVerdict {
+        verdict(self.0.compare(formula, hoa))
+    }
 }
 
 fn word(given: JsWord) -> Result<session::Word, JsValue> {
@@ -267,13 +287,27 @@ impl Session {
 
     /// One greedy episode from start `index`.
     pub fn rollout(&mut self, index: u64) -> JsEpisode {
-        let trace = self.0.rollout(index);
+        episode(&self.0.rollout(index))
+    }
+
+    /// One greedy episode from a state of one's own.
+    pub fn rollout_from(&mut self, index: u64, state: &[f32]) -> Result<JsEpisode, JsValue> {
+        self.0.rollout_from(index, state).map(|trace| episode(&trace)).map_err(refused)
+    }
+
+    /// What the critic of a module thinks of a plane of states.
+    pub fn value_map(&mut self, request: JsValueMapRequest) -> Result<JsValueMap, JsValue> {
+        let request: ValueMapRequest = serde_wasm_bindgen::from_value(request.into())
+            .map_err(|e| refused(Refusal::new(Subject::Session, format!("the request is malformed: {e}"))))?;
+        let map = self.0.value_map(&request).map_err(refused)?;
         let object = Object::new();
-        set(&object, "rows", trace.rows as f64);
-        set(&object, "data", Float32Array::from(trace.data.as_slice()));
-        set(&object, "rounds", trace.rounds);
-        set(&object, "success", trace.success);
-        object.unchecked_into()
+        set(&object, "module", map.module as f64);
+        set(&object, "axes", plain::<JsValue>(&map.axes));
+        set(&object, "columns", map.columns as f64);
+        set(&object, "rows", map.rows as f64);
+        set(&object, "values", Float32Array::from(map.values.as_slice()));
+        set(&object, "controls", Float32Array::from(map.controls.as_slice()));
+        Ok(object.unchecked_into())
     }
 
     /// Begins an evaluation of `runs` episodes.
@@ -317,6 +351,7 @@ impl Session {
         for (name, column) in curves.columns() {
             set(&object, name, Float32Array::from(column));
         }
+        set(&object, "modules", curves.modules.iter().map(|curve| Float32Array::from(curve.as_slice())).collect::<Array>());
         object.unchecked_into()
     }
 

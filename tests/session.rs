@@ -1,7 +1,7 @@
 //! The session as a shell uses it: opened, described, advanced, read, rolled out, evaluated, driven, saved and restored.
 
 use ltl_rover::agent::Replays;
-use ltl_rover::session::{Layout, OpenRequest, Session, Subject, builtin_tasks, check_formula, check_hoa};
+use ltl_rover::session::{Layout, OpenRequest, Session, Subject, ValueMapRequest, builtin_tasks, check_formula, check_hoa};
 
 fn request(task: &str) -> OpenRequest {
     OpenRequest { task: task.into(), seed: 7, ..OpenRequest::default() }
@@ -210,4 +210,50 @@ fn an_override_is_in_force() {
     let setting = description.settings.iter().find(|s| s.key == "learner.n_step").unwrap();
     assert_eq!(setting.value, "3");
     assert!(description.settings.iter().any(|s| s.key == "learner.tau" && s.value == "0.005"), "an f32 is shown as it was meant");
+}
+
+#[test]
+fn a_value_map_is_the_critic_over_the_plane_of_the_body() {
+    for (task, axes) in [("ball_pass_b1", [0, 1]), ("cart_pole_c1", [0, 2]), ("melas", [0, 1])] {
+        let mut session = light(task);
+        let request = ValueMapRequest { q: 0, frontier: 3, columns: 7, rows: 5 };
+        let before = session.frame();
+        let map = session.value_map(&request).unwrap_or_else(|e| panic!("{task}: {e}"));
+        assert_eq!(map.axes.each_ref().map(|a| a.channel), axes, "{task}");
+        assert!(map.axes.iter().all(|a| a.low < a.high));
+        assert_eq!((map.values.len(), map.controls.len() % 35), (35, 0));
+        assert!(map.values.iter().all(|v| v.is_finite()) && map.controls.iter().all(|u| (-1.0..=1.0).contains(u)));
+        assert!(map.values.iter().any(|v| v != &map.values[0]), "{task}: the network sees where it is");
+        assert_eq!(session.frame(), before, "looking changes nothing");
+        assert_eq!(session.value_map(&request).unwrap(), map);
+        assert_ne!(session.value_map(&ValueMapRequest { frontier: 1, ..request.clone() }).unwrap().values, map.values);
+        for wrong in [
+            ValueMapRequest { columns: 0, ..request.clone() },
+            ValueMapRequest { rows: usize::MAX, ..request.clone() },
+            ValueMapRequest { q: 999, ..request.clone() },
+        ] {
+            assert_eq!(session.value_map(&wrong).unwrap_err().subject, Subject::Session);
+        }
+    }
+}
+
+#[test]
+fn an_episode_begins_where_it_is_told() {
+    let mut session = light("ball_pass_b1");
+    let layout = session.describe().layout;
+    let trace = session.rollout_from(0, &[120.0, 480.0, 0.0, 0.0]).unwrap();
+    assert_eq!(field(&layout, &trace.data[..layout.length], "state"), [120.0, 480.0, 0.0, 0.0]);
+    let outside = session.rollout_from(0, &[1e9, f32::NAN, 0.0, 0.0]).unwrap();
+    assert!(outside.data.iter().all(|x| x.is_finite()), "a state outside is brought inside");
+    assert_eq!(session.rollout_from(0, &[1.0]).unwrap_err().subject, Subject::Session);
+}
+
+#[test]
+fn losses_are_kept_by_module() {
+    let mut session = light("ball_pass_b1");
+    session.advance(1500);
+    let curves = session.curves();
+    assert_eq!(curves.modules.len(), session.describe().modules.len());
+    assert!(curves.modules.iter().all(|m| m.len() == curves.episode.len()));
+    assert!(curves.modules.iter().flatten().any(|loss| loss.is_finite() && *loss > 0.0), "some module was updated");
 }

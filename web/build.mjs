@@ -1,5 +1,6 @@
 // @ts-check
-// Assembles the page into web/dist: sources, WebAssembly, libraries, fonts, assets and the offline worker with its list of files.
+// Assembles the page into web/dist: sources, WebAssembly, libraries, fonts, assets, the drawings of the automata that come with it, and
+// the offline worker with its list of files. Prints what a first visit transfers, and fails when that is too much.
 // usage: node build.mjs [--mock] [--out DIR]     --mock: the scripted stand-in instead of the WebAssembly, for tests of the views
 
 import { execFile } from 'node:child_process';
@@ -9,6 +10,8 @@ import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs, promisify } from 'node:util';
 import { gzipSync } from 'node:zlib';
+import { bakeDrawings } from './bake.mjs';
+import { initialState } from './src/state.js';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({ options: { mock: { type: 'boolean', default: false }, out: { type: 'string', default: join(here, 'dist') } } });
@@ -75,6 +78,24 @@ if (await exists(join(here, '../assets'))) await cp(join(here, '../assets'), joi
 const policies = await readdir(join(out, 'assets/policies')).catch(() => /** @type {string[]} */ ([]));
 await writeFile(join(out, 'policies.json'), JSON.stringify(policies.filter((f) => f.endsWith('.safetensors')).map((f) => f.replace('.safetensors', '')).sort()));
 
+// The page's modules are fetched at once, not one after the other as they name each other.
+const begins = 'src/main.js';
+const eager = values.mock ? [begins] : await reached(join(out, begins));
+const html = await readFile(join(out, 'index.html'), 'utf8');
+const hints = eager.map((file) => `<link rel="modulepreload" href="${file}" />`);
+await writeFile(join(out, 'index.html'), html.replace('<link rel="modulepreload" href="src/main.js" />', hints.join('\n    ')));
+
+/** The modules that a module of the page imports at once, itself included. @param {string} entry */
+async function reached(entry) {
+  const found = new Set([entry]);
+  for (const file of found) {
+    for (const [, name] of (await readFile(file, 'utf8')).matchAll(/^import\b[^'"]*['"](\.[^'"]+)['"];/gm)) found.add(join(dirname(file), name));
+  }
+  return [...found].map((file) => relative(out, file));
+}
+
+if (!values.mock) await bakeDrawings(out, await optimised(join(here, 'pkg/ltl_rover_bg.wasm')));
+
 // What the offline worker keeps: everything, under a name that changes with the content.
 const files = (await readdir(out, { recursive: true, withFileTypes: true }))
   .filter((entry) => entry.isFile())
@@ -99,5 +120,17 @@ await writeFile(join(out, 'service_worker.js'), worker
   .replace('[/* FILES */]', JSON.stringify(['./', ...files])));
 
 sizes.sort((a, b) => b.packed - a.packed);
+// What the first visit needs before anything moves: all that is not loaded later on, with the policy and drawing of the first task.
+const task = initialState().task;
+const LATER = /^(vendor\/(viz|LICENSE)|assets\/|drawings\/|lessons\/|src\/lessons\/|service_worker|manifest)/;
+const FIRST = new Set([`assets/policies/${task}.safetensors`, `drawings/${task}.json`]);
+const first = sizes.filter(({ file }) => FIRST.has(file) || !LATER.test(file)).reduce((sum, f) => sum + f.packed, 0);
+const FIRST_LIMIT = 1024 * 1024;
+
+console.log(`page: first visit ${Math.round(first / 1024)} KB compressed, map pictures and Graphviz aside (at most ${FIRST_LIMIT / 1024} KB)`);
+if (first > FIRST_LIMIT) {
+  console.error('page: the first visit transfers too much; load something of it later');
+  process.exitCode = 1;
+}
 console.log(`page: ${files.length + 1} files, ${Math.round(whole / 1024)} KB, ${Math.round(packed / 1024)} KB compressed, in ${relative(process.cwd(), out) || '.'}`);
 for (const { file, packed: small } of sizes.slice(0, 6)) console.log(`  ${String(Math.round(small / 1024)).padStart(5)} KB  ${file}`);

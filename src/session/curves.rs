@@ -16,12 +16,48 @@ pub struct EpisodeOutcome {
     pub rounds: u32,
     /// A round was completed, and no sink entered.
     pub success: bool,
-    /// Mean critic loss over the episode's updates; 0 without any.
-    pub critic: f64,
+}
+
+/// Sum and number of critic losses.
+#[derive(Clone, Copy, PartialEq, Default, Debug, Serialize, Deserialize)]
+struct LossSum(f64, u64);
+
+impl LossSum {
+    fn add(&mut self, other: LossSum) {
+        *self = LossSum(self.0 + other.0, self.1 + other.1);
+    }
+
+    /// The mean; NaN where there was no update.
+    fn mean(self) -> f32 {
+        (self.0 / self.1 as f64) as f32
+    }
+}
+
+/// The critic losses of one episode's updates, by module.
+#[derive(Clone, PartialEq, Default, Debug, Serialize, Deserialize)]
+pub struct EpisodeLosses(Vec<LossSum>);
+
+impl EpisodeLosses {
+    /// No updates yet, of `modules` modules.
+    pub fn new(modules: usize) -> EpisodeLosses {
+        EpisodeLosses(vec![LossSum::default(); modules])
+    }
+
+    /// Takes in one update. A module that there is not is passed over.
+    pub fn add(&mut self, module: usize, critic: f32) {
+        if let Some(sum) = self.0.get_mut(module) {
+            sum.add(LossSum(f64::from(critic), 1));
+        }
+    }
+
+    /// Forgets all updates, for another episode.
+    pub fn clear(&mut self) {
+        self.0.fill(LossSum::default());
+    }
 }
 
 /// Sums over the episodes of one point.
-#[derive(Clone, Copy, PartialEq, Default, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Default, Debug, Serialize, Deserialize)]
 struct Point {
     episodes: u64,
     /// Σ total/steps.
@@ -29,7 +65,11 @@ struct Point {
     total: f64,
     rounds: f64,
     success: f64,
+    /// Σ of the episodes' mean critic losses.
     critic: f64,
+    /// By module. Older checkpoints have none.
+    #[serde(default)]
+    losses: Vec<LossSum>,
 }
 
 impl Point {
@@ -40,6 +80,10 @@ impl Point {
         self.rounds += other.rounds;
         self.success += other.success;
         self.critic += other.critic;
+        self.losses.resize(self.losses.len().max(other.losses.len()), LossSum::default());
+        for (sum, more) in self.losses.iter_mut().zip(&other.losses) {
+            sum.add(*more);
+        }
     }
 }
 
@@ -58,8 +102,10 @@ pub struct Curves {
     pub rounds: Vec<f32>,
     /// Share of the episodes that satisfied the task, 0 … 1.
     pub success: Vec<f32>,
-    /// Critic loss.
+    /// Critic loss, over all modules.
     pub critic: Vec<f32>,
+    /// Critic loss of each module; NaN where it was not updated.
+    pub modules: Vec<Vec<f32>>,
 }
 
 impl Curves {
@@ -105,15 +151,18 @@ impl CurveRecorder {
         }
     }
 
-    /// Takes in one finished episode.
-    pub fn push(&mut self, episode: EpisodeOutcome) {
+    /// Takes in one finished episode with the losses of its updates.
+    pub fn push(&mut self, episode: EpisodeOutcome, losses: &EpisodeLosses) {
+        let mut all = LossSum::default();
+        losses.0.iter().for_each(|sum| all.add(*sum));
         self.open.add(&Point {
             episodes: 1,
             average: episode.total / f64::from(episode.steps.max(1)),
             total: episode.total,
             rounds: f64::from(episode.rounds),
             success: f64::from(u8::from(episode.success)),
-            critic: episode.critic,
+            critic: all.0 / all.1.max(1) as f64,
+            losses: losses.0.clone(),
         });
         if self.open.episodes < self.every {
             return;
@@ -121,7 +170,7 @@ impl CurveRecorder {
         self.points.push(std::mem::take(&mut self.open));
         if self.points.len() == MAX_POINTS {
             let merge = |pair: &[Point]| {
-                let mut sum = pair[0];
+                let mut sum = pair[0].clone();
                 sum.add(&pair[1]);
                 sum
             };
@@ -132,7 +181,9 @@ impl CurveRecorder {
 
     /// The curves as they stand; episodes that do not yet fill a point are left out.
     pub fn curves(&self) -> Curves {
-        let mut curves = Curves { every: u32::try_from(self.every).unwrap_or(u32::MAX), ..Curves::default() };
+        let modules = self.points.last().map_or(0, |p| p.losses.len());
+        let every = u32::try_from(self.every).unwrap_or(u32::MAX);
+        let mut curves = Curves { every, modules: vec![vec![]; modules], ..Curves::default() };
         let mut episodes = 0;
         for point in &self.points {
             let n = point.episodes as f64;
@@ -143,6 +194,9 @@ impl CurveRecorder {
             curves.rounds.push((point.rounds / n) as f32);
             curves.success.push((point.success / n) as f32);
             curves.critic.push((point.critic / n) as f32);
+            for (module, curve) in curves.modules.iter_mut().enumerate() {
+                curve.push(point.losses.get(module).copied().unwrap_or_default().mean());
+            }
         }
         curves
     }
@@ -156,13 +210,19 @@ mod tests {
     fn points_stay_bounded_and_keep_the_sums() {
         let mut recorder = CurveRecorder::default();
         let count = 5_000u32;
+        let mut losses = EpisodeLosses::new(2);
+        losses.add(1, 0.25);
+        losses.add(1, 0.75);
+        losses.add(7, 100.0);
         for k in 0..count {
-            recorder.push(EpisodeOutcome { steps: 10, total: f64::from(k), rounds: k % 3, success: k % 2 == 0, critic: 0.5 });
+            recorder.push(EpisodeOutcome { steps: 10, total: f64::from(k), rounds: k % 3, success: k % 2 == 0 }, &losses);
         }
         let curves = recorder.curves();
         let n = curves.episode.len();
         assert!((MAX_POINTS / 2..MAX_POINTS).contains(&n), "{n} points");
         assert!(curves.every.is_power_of_two());
+        assert!(curves.critic.iter().chain(&curves.modules[1]).all(|&loss| loss == 0.5));
+        assert!(curves.modules[0].iter().all(|loss| loss.is_nan()) && curves.modules[0].len() == n);
         // Means of equally many episodes: the mean of means over complete points is the mean over their episodes.
         let covered = n as u32 * curves.every;
         assert_eq!(*curves.episode.last().unwrap(), covered as f32);
@@ -175,7 +235,7 @@ mod tests {
     fn a_few_episodes_are_shown_as_they_are() {
         let mut recorder = CurveRecorder::default();
         for rounds in [0, 2, 1] {
-            recorder.push(EpisodeOutcome { steps: 4, total: 0.02, rounds, success: rounds > 0, critic: 0.0 });
+            recorder.push(EpisodeOutcome { steps: 4, total: 0.02, rounds, success: rounds > 0 }, &EpisodeLosses::default());
         }
         let curves = recorder.curves();
         assert_eq!((curves.every, curves.rounds, curves.success), (1, vec![0.0, 2.0, 1.0], vec![0.0, 1.0, 1.0]));

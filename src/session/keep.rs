@@ -1,8 +1,9 @@
 //! A session as the bytes of a checkpoint, and back: training goes on bit by bit, with its curves and counts.
 
+use super::activity::Activity;
 use super::builtin;
-use super::curves::CurveRecorder;
-use super::live::{Activity, Session};
+use super::curves::{CurveRecorder, EpisodeLosses};
+use super::live::Session;
 use super::open::{OpenRequest, written};
 use super::refusal::{Refusal, Subject};
 use crate::agent::Replays;
@@ -23,7 +24,7 @@ const REQUEST: &str = "request";
 struct Counted {
     activity: Vec<Activity>,
     total: f64,
-    critic: (f64, u32),
+    losses: EpisodeLosses,
 }
 
 impl Session {
@@ -35,7 +36,7 @@ impl Session {
             self.advance_check();
         }
         let mut origin = self.setup.origin();
-        let counted = Counted { activity: self.activity.clone(), total: self.total, critic: self.critic };
+        let counted = Counted { activity: self.activity.clone(), total: self.total, losses: self.losses.clone() };
         // The map and the seed stand in the checkpoint already: here it only matters whether there is a map of one's own.
         let map = self.request.map.as_ref().map(|_| String::new());
         let request = OpenRequest { map, seed: 0, ..self.request.clone() };
@@ -73,7 +74,7 @@ impl Session {
                 let message = "it counts other modules than its learner has";
                 return Err(Refusal::new(Subject::Checkpoint, message));
             }
-            Counted { activity: session.activity, total: session.total, critic: session.critic } = counted;
+            Counted { activity: session.activity, total: session.total, losses: session.losses } = counted;
         }
         Ok(session)
     }

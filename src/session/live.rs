@@ -1,6 +1,7 @@
 //! The session itself: one run of training, and everything that can be read from it or done with its policy.
 
-use super::curves::{CurveRecorder, Curves, EpisodeOutcome};
+use super::activity::{Activity, ModuleStatistics};
+use super::curves::{CurveRecorder, Curves, EpisodeLosses, EpisodeOutcome};
 use super::describe::{Description, EnvironmentFacts, TaskFacts, settings};
 use super::drive::Drive;
 use super::edges::EdgeIndex;
@@ -9,14 +10,16 @@ use super::open::{OpenRequest, Opened};
 use super::refusal::{Refusal, Subject};
 use super::translation::Translator;
 use super::trial::{Trial, TrialProgress};
+use super::value_map::{self, ValueMap, ValueMapRequest};
 use super::word::{self, Word, WordReading};
 use super::{FormulaFacts, builtin};
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
+use crate::eval::Rollout;
 use crate::ltl::Formula;
 use crate::rng::{Purpose, Rng};
 use crate::task::Setup;
 use crate::train::{End, Run, Tick};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The most episodes that one evaluation plays.
 const MAX_RUNS: u32 = 100_000;
@@ -37,34 +40,6 @@ pub struct EpisodeTrace {
     pub success: bool,
 }
 
-/// How a module has fared.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct ModuleStatistics {
-    /// What it is in charge of.
-    pub name: String,
-    /// Moves it has chosen while training.
-    pub visits: u64,
-    /// Samples in its replay.
-    pub replay: usize,
-    /// Samples that its replay can hold.
-    pub capacity: usize,
-    /// Updates of its networks.
-    pub updates: u64,
-    /// Its critic's loss at the last update.
-    pub critic: f32,
-    /// Its actor's loss at the last update.
-    pub actor: f32,
-}
-
-/// What one module has done, as far as ticks tell.
-#[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
-pub(super) struct Activity {
-    visits: u64,
-    updates: u64,
-    critic: f32,
-    actor: f32,
-}
-
 /// An open task under training.
 pub struct Session {
     pub(super) request: OpenRequest,
@@ -78,9 +53,9 @@ pub struct Session {
     pub(super) curves: CurveRecorder,
     pub(super) activity: Vec<Activity>,
     last: Option<Tick>,
-    /// Σ R(x') of the present episode, and Σ and number of its critic losses.
+    /// Σ R(x') of the present episode, and the losses of its updates.
     pub(super) total: f64,
-    pub(super) critic: (f64, u32),
+    pub(super) losses: EpisodeLosses,
     /// A periodic evaluation of training that is going on.
     pub(super) check: Option<Trial>,
     trial: Option<Trial>,
@@ -103,7 +78,8 @@ impl Session {
         let product = run.trainer().product();
         let spec = product.environment().spec();
         let layout = Layout::new(setup.automaton().len(), spec.state.len(), spec.action.len());
-        let activity = vec![Activity::default(); run.trainer().learner().modules().len()];
+        let modules = run.trainer().learner().modules().len();
+        let activity = vec![Activity::default(); modules];
         Session {
             seed: run.seed(),
             request,
@@ -117,7 +93,7 @@ impl Session {
             activity,
             last: None,
             total: 0.0,
-            critic: (0.0, 0),
+            losses: EpisodeLosses::new(modules),
             check: None,
             trial: None,
             drive: None,
@@ -194,7 +170,8 @@ impl Session {
 
     fn fold(&mut self, tick: &Tick) {
         if tick.start.is_some() {
-            (self.total, self.critic) = (0.0, (0.0, 0));
+            self.total = 0.0;
+            self.losses.clear();
         }
         self.total += f64::from(tick.reward.base);
         if let Some(module) = self.run.trainer().learner().modules().of(tick.product.from) {
@@ -204,16 +181,16 @@ impl Session {
             let activity = &mut self.activity[update.module];
             activity.updates += 1;
             (activity.critic, activity.actor) = (update.losses.critic, update.losses.actor);
-            self.critic = (self.critic.0 + f64::from(update.losses.critic), self.critic.1 + 1);
+            self.losses.add(update.module, update.losses.critic);
         }
         if let Some(end) = tick.end {
-            self.curves.push(EpisodeOutcome {
+            let outcome = EpisodeOutcome {
                 steps: tick.episode_step,
                 total: self.total,
                 rounds: tick.rounds,
                 success: tick.rounds > 0 && end != End::Terminated,
-                critic: self.critic.0 / f64::from(self.critic.1.max(1)),
-            });
+            };
+            self.curves.push(outcome, &self.losses);
         }
         self.last = Some(*tick);
     }
@@ -268,8 +245,27 @@ impl Session {
 
     /// One episode of the greedy policy as it is now; `index` chooses the start.
     pub fn rollout(&mut self, index: u64) -> EpisodeTrace {
-        let seed = start_seed(self.seed, index);
-        let mut rollout = self.setup.rollout(seed);
+        let rollout = self.setup.rollout(start_seed(self.seed, index));
+        self.trace(rollout)
+    }
+
+    /// One episode of the greedy policy from a start of one's own: a state in physical units, clamped to its range; `index` chooses
+    /// the chances on the way.
+    ///
+    /// # Errors
+    /// A state of another length than the environment's.
+    pub fn rollout_from(&mut self, index: u64, state: &[f32]) -> Result<EpisodeTrace, Refusal> {
+        let wanted = self.run.trainer().product().environment().spec().state.len();
+        if state.len() != wanted {
+            return Err(Refusal::new(Subject::Session, format!("a state has {wanted} numbers here, not {}", state.len())));
+        }
+        let mut rollout = self.setup.rollout(start_seed(self.seed, index));
+        rollout.restart_at(state);
+        Ok(self.trace(rollout))
+    }
+
+    /// Plays `rollout` to its end.
+    fn trace(&mut self, mut rollout: Rollout) -> EpisodeTrace {
         let counters = self.counters();
         let (initial, reward) = (self.initial(), self.setup.reward().clone());
         let learner = self.run.trainer_mut().learner_mut();
@@ -349,6 +345,15 @@ impl Session {
         let product = self.run.trainer().product();
         let reward = self.setup.reward().as_ref();
         word::read(product, reward, (&self.layout, &self.edges), (&formula, &specification.labels), word)
+    }
+
+    /// What the critic of the module in charge thinks of a plane of states.
+    ///
+    /// # Errors
+    /// A grid that is empty or too fine, or an embedded state that no module is in charge of.
+    pub fn value_map(&mut self, request: &ValueMapRequest) -> Result<ValueMap, Refusal> {
+        let product = self.run.trainer().product().clone();
+        value_map::over(&product, self.run.trainer_mut().learner_mut(), request)
     }
 
     /// The learning curves so far.

@@ -244,7 +244,7 @@ impl Translator {
         Ok(self.facts(formula.as_ref(), automaton, Some(hoa), None, exclusive, warnings))
     }
 
-    fn exclusive(&self, names: &[String]) -> Vec<Vec<String>> {
+    pub(super) fn exclusive(&self, names: &[String]) -> Vec<Vec<String>> {
         self.environment.as_ref().map_or(vec![], |known| task::exclusive(names, &known.spec, &known.renaming))
     }
 

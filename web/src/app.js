@@ -42,7 +42,7 @@ export class App {
     /** The tasks that a trained policy comes for. @type {string[]} */
     this.policies = [];
     this.client = new Client(() => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }), this.listeners());
-    this.theatre = new Theatre((command) => this.ask(command));
+    this.theatre = new Theatre((command) => this.ask(command), this.signals);
     this.spec = this.makeSpec();
     this.controls = this.makeControls();
     this.modules = new Modules($.any('modules'));
@@ -52,6 +52,10 @@ export class App {
     this.curves = null;
     /** The newest curves, for the plots when they are there. @type {import('./protocol.js').Curves | null} */
     this.points = null;
+    /** @type {import('./kept.js').KeptEpisodes | null} */
+    this.kept = null;
+    /** @type {import('./values.js').Values | null} */
+    this.values = null;
     const on = (/** @type {string} */ id, /** @type {() => void} */ act) => $.button(id).addEventListener('click', act);
     on('evaluate', () => this.evaluate());
     on('settings-own', () => this.open({ ...this.state, set: {} }));
@@ -208,7 +212,7 @@ export class App {
     this.description = description;
     this.setTraining(false);
     this.controls.rate(0);
-    this.theatre.open(generation, description);
+    this.theatre.open(generation, description, this.state.formula || this.state.hoa ? null : this.state.task);
     this.spec.show(description);
     this.settings.show(description.settings, this.state.set);
     const changed = Object.keys(this.state.set).length > 0;
@@ -290,7 +294,7 @@ export class App {
 
   evaluate() {
     this.setTraining(false);
-    return this.ask({ kind: 'evaluate', runs: RUNS });
+    return this.ask({ kind: 'evaluate', runs: RUNS, of: this.theatre.playing ?? 'present' });
   }
 
   // --- the state ----------------------------------------------------------------------------------------------------------
@@ -301,7 +305,7 @@ export class App {
     this.theatre.watch(watch);
   }
 
-  /** Changes what needs no other session: watch, speed, pace, hide. @param {Partial<State>} part */
+  /** Changes what needs no other session: watch, speed, pace, layers, hide. @param {Partial<State>} part */
   change(part) {
     this.state = { ...this.state, ...part };
     this.showState();

@@ -18,7 +18,7 @@ export function wireChrome(app) {
   });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => app.retheme());
   const hide = () => {
-    for (const panel of ['spec', 'training', 'automaton', 'details']) byId(`${panel}-panel`, HTMLElement).hidden = app.state.hide.includes(panel);
+    for (const panel of ['spec', 'training', 'automaton', 'compare', 'details']) byId(`${panel}-panel`, HTMLElement).hidden = app.state.hide.includes(panel);
     byId('curves', HTMLElement).hidden = app.state.hide.includes('curves');
   };
   app.signals.on('state', hide);

@@ -24,9 +24,15 @@ function table(app) {
     2: () => app.watch('policy'),
     3: () => app.watch('training'),
     4: () => app.watch('drive'),
+    k: press('keep'),
+    x: press('next-episode'),
+    v: () => app.change({ layers: toggled(app.state.layers, 'value') }),
     '?': press('help-open'),
   };
 }
+
+/** A list with an entry added or taken out. @param {string[]} list @param {string} entry */
+const toggled = (list, entry) => (list.includes(entry) ? list.filter((e) => e !== entry) : [...list, entry]);
 
 /** Listens to keys that no field takes. @param {App} app */
 export function wireKeys(app) {

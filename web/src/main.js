@@ -5,16 +5,19 @@ import { App } from './app.js';
 import { wireChrome } from './chrome.js';
 import { byId, element } from './dom.js';
 import { wireFiles } from './files.js';
+import { wireKept } from './kept.js';
 import { wireKeys } from './keys.js';
+import { wireLayers } from './layers.js';
 import { tellProblems, wireLink } from './link.js';
 import { readHash } from './state.js';
+import { wireValues } from './values.js';
 
 if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
   byId('notices', HTMLElement).append(element('p', { className: 'notice problem' }, 'This browser has no WebAssembly or no workers; the page cannot compute anything here.'));
 } else {
   const { state, problems } = readHash(location.hash);
   const app = new App(state);
-  for (const wire of [wireChrome, wireKeys, wireLink, wireFiles]) wire(app);
+  for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues, wireFiles]) wire(app);
   tellProblems(problems);
   app.start();
   if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js').catch(() => {});

@@ -37,7 +37,7 @@ export class Player {
     this.rowsPerSecond = dt > 0 ? 1 / dt : 30;
     /** @type {Episode | null} */
     this.episode = null;
-    /** Whose episode it is. @type {'present' | 'shipped'} */
+    /** Whose episode it is, or one that was kept. @type {import('./protocol.js').Whose | 'kept'} */
     this.of = 'present';
     /** Position in rows; the whole part is the row shown. */
     this.position = 0;

@@ -24,11 +24,11 @@
 /** @typedef {{ id: number, name: string, sink: boolean, deterministic: boolean, reachable: boolean, marks: number[] }} AutomatonState */
 /** @typedef {{ from: number, to: number, kind: 'letter' | 'epsilon', label: string, marks: number[] }} AutomatonEdge */
 /** @typedef {{ propositions: string[], initial: number, sets: number, states: AutomatonState[], edges: AutomatonEdge[] }} AutomatonGraph */
-/** @typedef {{ kind: 'disc', centre: [number, number], radius: number } | { kind: 'polygon', points: [number, number][] } | { kind: 'band', channel: number, low: number, high: number }} Shape */
+/** @typedef {{ kind: 'disc', centre: [number, number], radius: number } | { kind: 'polygon', points: [number, number][] } | { kind: 'band', channel: number, low: number, high: number } | { kind: 'cells', cell: [number, number], runs: [number, number, number][] }} Shape */
 /** @typedef {{ proposition: number, name: string, shape: Shape, margin: number }} Region */
 /** @typedef {{ kind: 'ball', radius: number, position: [number, number], velocity: [number, number] } | { kind: 'cart_pole', position: number, angle: number, pole_length: number } | { kind: 'rover', position: [number, number], reach: number }} Body */
 /** @typedef {{ x: [number, number], y: [number, number], unit: string, y_axis: 'up' | 'down' }} Ground */
-/** @typedef {{ ground: Ground, regions: Region[], body: Body, picture: string | null }} Scene */
+/** @typedef {{ ground: Ground, regions: Region[], body: Body, hazard: number | null, picture: string | null }} Scene */
 /** @typedef {{ message: string, start: number, end: number }} Warning */
 /** @typedef {{ text: string, parenthesised: string, warnings: Warning[], propositions: string[] }} FormulaFacts */
 /** @typedef {{ key: string, value: string }} Setting */
@@ -65,8 +65,27 @@
  * @property {Float32Array} rounds    rounds closed per episode
  * @property {Float32Array} success   share of episodes that satisfied the task, 0 … 1
  * @property {Float32Array} critic    critic loss
+ * @property {Float32Array[]} modules   critic loss of each module; NaN where it was not updated
  */
 /** @typedef {{ name: string, visits: number, replay: number, capacity: number, updates: number, critic: number, actor: number }} ModuleStatistics */
+
+/**
+ * How an automaton compares with a formula; where they differ, on which word, and whether the automaton accepts it.
+ * @typedef {{ equal: boolean, words: number, length: number, word: Word | null, accepted: boolean, sentence: string }} Comparison
+ */
+/** @typedef {{ ok: true, facts: Comparison } | { ok: false, error: Located }} ComparisonVerdict */
+
+/** Which values are asked for: automaton state, frontier (a bit per set), points. @typedef {{ q: number, frontier: number, columns: number, rows: number }} ValueMapRequest */
+/**
+ * V(x) on a grid, rows from the least value of the second channel upwards; each point stands in the middle of its cell.
+ * @typedef {object} ValueMap
+ * @property {number} module
+ * @property {{ channel: number, low: number, high: number }[]} axes   what changes along a row, and along a column
+ * @property {number} columns
+ * @property {number} rows
+ * @property {Float32Array} values     rows × columns
+ * @property {Float32Array} controls   rows × columns × controls: what the policy does there
+ */
 
 /**
  * One greedy episode: `rows` frames end to end.
@@ -85,6 +104,8 @@
  * @property {number} sink_rate
  * @property {number} seed
  */
+
+/** Whose policy: that of the open session, or the trained one that came with the page. @typedef {'present' | 'shipped'} Whose */
 
 /**
  * An infinite word: its letters, each the propositions that hold; the letter that follows the last one; ε-jumps, each before which
@@ -110,11 +131,12 @@
  *   | { kind: 'pause' }
  *   | { kind: 'step' }
  *   | { kind: 'episode' }
- *   | { kind: 'rollout', index: number, of: 'present' | 'shipped' }
+ *   | { kind: 'rollout', index: number, of: Whose, from?: number[] }
+ *   | { kind: 'value_map', request: ValueMapRequest, of: Whose }
  *   | { kind: 'load_policy', bytes: Uint8Array }
  *   | { kind: 'begin_drive', index: number }
  *   | { kind: 'drive', control: number[], jump: number | null }
- *   | { kind: 'evaluate', runs: number }
+ *   | { kind: 'evaluate', runs: number, of?: Whose }
  *   | { kind: 'check_formula', text: string }
  *   | { kind: 'check_hoa', text: string }
  *   | { kind: 'read_word', word: Word }

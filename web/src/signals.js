@@ -10,6 +10,9 @@
  * @property {Extract<import('./protocol.js').Reply, { kind: 'telemetry' }>} telemetry   curves and statistics, four times a second while training
  * @property {import('./protocol.js').EvaluationProgress} evaluation   an evaluation fills
  * @property {number | null} finished                       the recipe is at its end: the steps to the first perfect evaluation, if there was one
+ * @property {import('./protocol.js').Frame} moment         another moment is shown; the frame is read at once, it does not last
+ * @property {import('./protocol.js').Episode} episode      a replay has begun
+ * @property {import('./state.js').State['watch']} watch    what the stage shows has changed
  * @property {'light' | 'dark' | 'system'} theme            the colours have changed
  */
 

@@ -12,17 +12,20 @@
  * @property {'trained' | 'policy' | 'training' | 'drive'} watch   what the stage shows
  * @property {number} speed     playback, multiples of the environment's own time
  * @property {number} pace      training, steps a second; 0: as fast as possible
+ * @property {string[]} layers  what is drawn over the ground
  * @property {string[]} hide    panels that are not shown
  */
 
 /** @typedef {{ property: string, message: string }} Problem */
 
 /** Playback speeds on offer. */
-export const SPEEDS = Object.freeze([0.25, 0.5, 1, 2, 4, 8, 16]);
+export const SPEEDS = Object.freeze([0.125, 0.25, 0.5, 1, 2, 4, 8, 16, 64]);
 /** Training paces on offer, steps a second; 0 is as fast as possible. */
 export const PACES = Object.freeze([5, 20, 100, 1000, 0]);
 /** Panels that a link may hide. */
-export const PANELS = Object.freeze(['spec', 'training', 'automaton', 'curves', 'details']);
+export const PANELS = Object.freeze(['spec', 'training', 'automaton', 'curves', 'compare', 'details']);
+/** What can be drawn over the ground. */
+export const LAYERS = Object.freeze(['labels', 'unsafe', 'paths', 'value']);
 
 /** The longest automaton that a link carries, in characters. */
 export const MAX_HOA_IN_LINK = 6000;
@@ -96,16 +99,20 @@ const settings = {
   write: (value) => Object.entries(value).map(([k, v]) => `${k}=${v}`).join(';'),
 };
 
-/** @type {Property<string[]>} */
-const panels = {
-  initial: [],
+/**
+ * @param {readonly string[]} initial
+ * @param {readonly string[]} known
+ * @returns {Property<string[]>}
+ */
+const list = (initial, known) => ({
+  initial: [...initial],
   read: (s) => {
     const value = s.split(',').filter(Boolean);
-    const wrong = value.find((p) => !PANELS.includes(p));
-    return wrong === undefined ? { value } : `"${wrong.slice(0, 40)}" is none of ${PANELS.join(', ')}`;
+    const wrong = value.find((p) => !known.includes(p));
+    return wrong === undefined ? { value: known.filter((p) => value.includes(p)) } : `"${wrong.slice(0, 40)}" is none of ${known.join(', ')}`;
   },
   write: (value) => value.join(','),
-};
+});
 
 /** @type {{ [K in keyof State]: Property<State[K]> }} */
 export const PROPERTIES = {
@@ -118,7 +125,8 @@ export const PROPERTIES = {
   watch: /** @type {Property<State['watch']>} */ (choice('trained', ['trained', 'policy', 'training', 'drive'])),
   speed: choice(2, SPEEDS),
   pace: choice(0, PACES),
-  hide: panels,
+  layers: list(['labels', 'unsafe', 'paths'], LAYERS),
+  hide: list([], PANELS),
 };
 
 const KEYS = /** @type {(keyof State)[]} */ (Object.keys(PROPERTIES));

@@ -5,13 +5,15 @@
 import { byId, count, element, setText } from './dom.js';
 import { Player, Recorder, happenings } from './player.js';
 import { END, Frame } from './protocol.js';
+import { Transport } from './transport.js';
+import { draw } from './vendor.js';
 import { Automaton } from './views/automaton.js';
 import { Driver } from './views/drive.js';
 import { Frontier } from './views/frontier.js';
+import { EARLIER } from './views/ground.js';
 import { Reward } from './views/reward.js';
 import { Stage } from './views/stage.js';
 import { Timeline } from './views/timeline.js';
-import { loadViz } from './vendor.js';
 
 /** @typedef {import('./protocol.js').Command} Command */
 /** @typedef {import('./protocol.js').Description} Description */
@@ -26,18 +28,20 @@ const REDRAW = 90;
 export class Theatre {
   /**
    * @param {(command: Command) => Promise<any>} ask  resolves with `undefined` where a command was refused, which has been told then
+   * @param {import('./signals.js').Signals} signals
    */
-  constructor(ask) {
+  constructor(ask, signals) {
     this.ask = ask;
+    this.signals = signals;
     const any = (/** @type {string} */ id) => byId(id, HTMLElement);
-    const button = (/** @type {string} */ id) => byId(id, HTMLButtonElement);
     this.canvas = byId('stage', HTMLCanvasElement);
     this.note = any('stage-note');
-    this.clock = any('clock');
-    this.scrub = byId('scrub', HTMLInputElement);
-    this.buttons = { play: button('play'), previous: button('previous'), following: button('following') };
+    this.transport = new Transport({
+      play: () => this.togglePlay(), seek: (row) => this.seek(row), step: (rows) => this.seek(this.player.row + rows),
+      jump: (direction) => this.jump(direction), next: () => this.another(),
+    });
     this.automatonRoot = any('automaton');
-    this.automaton = new Automaton(this.automatonRoot, any('automaton-now'), loadViz);
+    this.automaton = new Automaton(this.automatonRoot, any('automaton-now'), draw);
     this.frontier = new Frontier(any('frontier'), any('unvisited'), any('jumps'));
     this.reward = new Reward({
       accepting: any('r-accepting'), reached: any('r-reached'), left: any('r-left'), sum: any('r-sum'),
@@ -45,10 +49,7 @@ export class Theatre {
     });
     this.timeline = new Timeline(byId('timeline', HTMLCanvasElement), (row) => this.seek(row));
     this.driver = new Driver(this.canvas);
-    this.buttons.play.addEventListener('click', () => this.togglePlay());
-    this.buttons.previous.addEventListener('click', () => this.jump(-1));
-    this.buttons.following.addEventListener('click', () => this.jump(1));
-    this.scrub.addEventListener('input', () => this.seek(Number(this.scrub.value)));
+    this.canvas.addEventListener('click', (event) => this.startAt(event.offsetX, event.offsetY));
 
     /** @type {Description | null} */
     this.description = null;
@@ -56,6 +57,8 @@ export class Theatre {
     /** @type {State['watch']} */
     this.mode = 'policy';
     this.speed = 1;
+    /** What is drawn over the ground. @type {ReadonlySet<string>} */
+    this.layers = new Set();
     /** Whether the trained policy of the open task is loaded. */
     this.trained = false;
     /** The newest frame of training. @type {Frame | null} */
@@ -69,6 +72,8 @@ export class Theatre {
     this.recorder = new Recorder();
     /** @type {import('./player.js').Happening[]} */
     this.list = [];
+    /** Runs before this one, the latest last. @type {import('./track.js').Track[]} */
+    this.earlier = [];
     this.episodeIndex = 0;
     this.asking = false;
     this.driving = false;
@@ -76,10 +81,25 @@ export class Theatre {
     this.shownRow = -1;
     this.lastPaint = 0;
     this.lastTimeline = 0;
+    this.moved = false;
   }
 
-  /** Shows another session. @param {number} generation @param {Description} description */
-  open(generation, description) {
+  /** Begins anew with the episodes. */
+  reset() {
+    this.episodeIndex = 0;
+    this.asking = false;
+    this.driving = false;
+    this.restedSince = 0;
+    this.shownRow = -1;
+  }
+
+  /**
+   * Shows another session.
+   * @param {number} generation
+   * @param {Description} description
+   * @param {string | null} shippedTask  the task, where its automaton is the one that comes with the page
+   */
+  open(generation, description, shippedTask) {
     const { playing } = this.player;
     this.generation = generation;
     this.description = description;
@@ -90,17 +110,16 @@ export class Theatre {
     this.player.playing = playing;
     this.recorder = new Recorder();
     this.list = [];
-    this.episodeIndex = 0;
-    this.asking = false;
-    this.driving = false;
-    this.shownRow = -1;
+    this.reset();
     this.stage?.close();
     this.stage = new Stage(this.canvas, description);
+    this.stage.set({ layers: this.layers });
+    this.forgetEarlier();
     this.frontier.show(description.automaton);
     this.reward.show(description.automaton);
     this.timeline.show(description);
     byId('automaton-panel', HTMLElement).classList.toggle('unshaped', !description.shaping);
-    this.automaton.show(description.automaton).then(() => this.refresh()).catch((error) => {
+    this.automaton.show(description.automaton, shippedTask).then(() => this.refresh()).catch((error) => {
       this.automatonRoot.replaceChildren(element('p', { className: 'note' }, `The automaton could not be drawn: ${error}`));
     });
   }
@@ -113,6 +132,13 @@ export class Theatre {
   retheme() {
     this.stage?.retheme();
     this.timeline.retheme();
+  }
+
+  /** @param {string[]} layers */
+  setLayers(layers) {
+    if (layers.length === this.layers.size && layers.every((layer) => this.layers.has(layer))) return;
+    this.layers = new Set(layers);
+    this.stage?.set({ layers: this.layers });
   }
 
   /** Shows the present moment again, on views that were made anew. */
@@ -130,22 +156,28 @@ export class Theatre {
     if (this.mode === 'training') this.recorder.add(this.live);
   }
 
-  /** Whose episodes the stage plays; `null` where it shows training or driving. */
+  /** Whose episodes the stage plays; `null` where it shows training or driving. @returns {import('./protocol.js').Whose | null} */
   get playing() {
     if (this.mode === 'trained') return this.trained ? 'shipped' : 'present';
     return this.mode === 'policy' ? 'present' : null;
   }
 
+  /** What is seen now, as an episode to keep: the one that is played, or what was seen of the run that goes on. @returns {Episode | null} */
+  get current() {
+    if (this.playing) return this.player.episode;
+    return this.description ? this.recorder.episode(this.description.layout.length) : null;
+  }
+
   /** Chooses what is shown. @param {State['watch']} mode */
   watch(mode) {
+    if (mode !== this.mode) this.forgetEarlier();
     this.mode = mode;
     this.say('');
-    const { play, previous, following } = this.buttons;
-    previous.disabled = following.disabled = this.scrub.disabled = !this.playing;
-    play.disabled = mode === 'training';
+    this.transport.enable(this.playing !== null, mode !== 'training', this.playing !== null || mode === 'drive');
     this.driver.activate(false);
     this.frontier.jumps(null, () => {});
     this.recorder = new Recorder();
+    this.signals.tell('watch', mode);
     if (mode === 'drive') this.beginDrive();
     else if (mode === 'training') this.liveIsNew = this.live !== null;
     else if (this.player.episode && this.player.of === this.playing) this.take(this.player.episode);
@@ -165,19 +197,69 @@ export class Theatre {
 
   // --- episodes -------------------------------------------------------------------------------------------------------------
 
-  /** Asks for the next episode of the policy that is watched. @returns {Promise<void>} */
-  async nextEpisode() {
+  /**
+   * Asks for the next episode of the policy that is watched.
+   * @param {number[]} [from]  the state that it begins in
+   * @returns {Promise<void>}
+   */
+  async nextEpisode(from) {
     const of = this.playing;
     if (this.asking || !of || !this.description) return;
     this.asking = true;
-    const answer = await this.ask({ kind: 'rollout', index: this.episodeIndex++, of });
+    const answer = await this.ask({ kind: 'rollout', index: this.episodeIndex++, of, from });
     if (!answer || answer.generation !== this.generation) return;
     this.asking = false;
     if (of !== this.playing) return this.nextEpisode();
-    this.player.load(answer.episode);
+    this.begin(answer.episode, of);
+  }
+
+  /** Plays an episode from its start. @param {Episode} episode @param {import('./player.js').Player['of']} of */
+  begin(episode, of) {
+    if (this.player.episode && this.player.of === of && of !== 'kept') this.remember(this.player.episode);
+    this.player.load(episode);
     this.player.of = of;
     this.restedSince = 0;
-    this.take(answer.episode);
+    this.take(episode);
+    this.signals.tell('episode', episode);
+  }
+
+  /** Plays an episode that was kept, again and again, until another is asked for. @param {Episode} episode */
+  replay(episode) {
+    if (!this.playing) this.watch(this.trained ? 'trained' : 'policy');
+    this.begin(episode, 'kept');
+    this.setPlaying(true);
+  }
+
+  /** Another episode: of the policy that is watched, or of the user's own hand. */
+  another() {
+    if (this.mode === 'drive') this.beginDrive();
+    else this.nextEpisode();
+  }
+
+  /** An episode from the place that was clicked. @param {number} px @param {number} py */
+  startAt(px, py) {
+    const { stage, description } = this;
+    if (!stage || !description || !this.playing) return;
+    const { scene, state } = description.environment;
+    if (scene.body.kind === 'cart_pole') return;
+    const from = state.map(({ low, high }) => (low + high) / 2);
+    stage.painter.pointer(px, py, stage.width, stage.height).forEach((value, k) => {
+      from[/** @type {[number, number]} */ (/** @type {any} */ (scene.body).position)[k]] = value;
+    });
+    this.nextEpisode(from);
+    this.setPlaying(true);
+  }
+
+  /** Draws a run faintly behind those to come. @param {Episode} episode */
+  remember(episode) {
+    if (!this.stage) return;
+    this.earlier = [...this.earlier, this.stage.track(episode)].slice(-EARLIER);
+    this.stage.set({ earlier: this.earlier });
+  }
+
+  forgetEarlier() {
+    this.earlier = [];
+    this.stage?.set({ earlier: this.earlier });
   }
 
   /** @param {Episode} episode */
@@ -185,7 +267,7 @@ export class Theatre {
     if (!this.description) return;
     this.list = happenings(this.description.layout, episode);
     this.timeline.load(episode, this.list);
-    this.scrub.max = String(episode.rows - 1);
+    this.transport.length(episode.rows - 1);
     this.shownRow = -1;
   }
 
@@ -197,17 +279,27 @@ export class Theatre {
     player.tick(seconds);
     if (player.finished && player.playing) {
       this.restedSince ||= now;
-      if (now - this.restedSince > PAUSE) this.nextEpisode();
+      if (now - this.restedSince > PAUSE) this.wentOut();
     }
     stage.replay(player.episode, player.row, player.fraction);
     if (player.row === this.shownRow) return;
+    if (!this.moved && this.shownRow >= 0) {
+      this.moved = true;
+      performance.mark('first-movement');
+    }
     this.shownRow = player.row;
     this.show(reader.at(player.episode.data, player.row));
     this.timeline.update(player.row);
-    this.scrub.value = String(player.row);
-    this.scrub.setAttribute('aria-valuetext', `step ${player.row} of ${player.last}`);
-    setText(this.clock, `${player.row}/${player.last}`);
-    this.say(player.of === 'shipped' ? 'A trained policy' : reader.counter('step') === 0 ? 'The policy before any training' : '');
+    this.transport.at(player.row, player.last);
+    const { of } = player;
+    this.say(of === 'kept' ? 'A kept episode' : of === 'shipped' ? 'A trained policy' : reader.counter('step') === 0 ? 'The policy before any training' : '');
+  }
+
+  /** An episode was played to its end, and stood there for a moment. */
+  wentOut() {
+    this.restedSince = 0;
+    if (this.player.of === 'kept') this.player.seek(0);
+    else this.nextEpisode();
   }
 
   /** @param {number} row */
@@ -238,17 +330,21 @@ export class Theatre {
   setPlaying(playing) {
     this.player.playing = playing;
     this.restedSince = 0;
-    this.buttons.play.classList.toggle('paused', !playing);
-    this.buttons.play.setAttribute('aria-label', playing ? 'Pause playback' : 'Play');
+    this.transport.playing(playing);
   }
 
   // --- training and driving ---------------------------------------------------------------------------------------------------
 
   /** @param {number} now @param {Frame} live */
   paintLive(now, live) {
-    this.stage?.live(live);
+    const { stage } = this;
+    if (stage && live.counter('episode') !== stage.tailEpisode && stage.tail.count > 1 && stage.tailEpisode >= 0) {
+      this.earlier = [...this.earlier, stage.tail.copy()].slice(-EARLIER);
+      stage.set({ earlier: this.earlier });
+    }
+    stage?.live(live);
     this.show(live);
-    setText(this.clock, `step ${live.number('episode_step')}`);
+    this.transport.live(live.number('episode_step'));
     if (now - this.lastTimeline < REDRAW) return;
     this.lastTimeline = now;
     const episode = this.recorder.episode(live.length);
@@ -273,6 +369,8 @@ export class Theatre {
   driveOn(seconds) {
     const { player, driver, description, stage } = this;
     if (!description || !stage || this.driving || !driver.active || !player.playing) return;
+    // Where time has no unit nothing moves by itself: the world waits for the hand.
+    if (description.environment.dt === 0 && !driver.pushes) return;
     if (driver.tick(seconds, player.rowsPerSecond * Math.min(this.speed, 1))) this.driveStep(driver.control(description, stage), null);
   }
 
@@ -306,6 +404,7 @@ export class Theatre {
     this.automaton.update(frame);
     this.frontier.update(frame);
     this.reward.update(frame);
+    this.signals.tell('moment', frame);
   }
 
   /** Says something on the stage. @param {string} text */

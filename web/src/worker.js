@@ -125,13 +125,20 @@ async function train(mine, pace) {
   }
 }
 
+/** The session whose policy is meant. @param {import('./protocol.js').Whose} of */
+function whose(of) {
+  if (of === 'present') return present();
+  if (!shipped) throw new Error('no trained policy is loaded');
+  return shipped;
+}
+
 /**
  * An evaluation in slices; the last progress, or `null` when another command took over.
  * @param {number} mine
  * @param {number} runs
+ * @param {Session} open
  */
-async function evaluate(mine, runs) {
-  const open = present();
+async function evaluate(mine, runs, open) {
   open.begin_evaluation(runs);
   for (;;) {
     if (mine !== generation) return null;
@@ -227,10 +234,12 @@ function obey(command) {
       });
       return null;
     case 'rollout': {
-      const whose = command.of === 'shipped' ? shipped : present();
-      if (!whose) throw new Error('no trained policy is loaded');
-      return { generation: opened, episode: whose.rollout(BigInt(command.index)) };
+      const player = whose(command.of);
+      const index = BigInt(command.index);
+      return { generation: opened, episode: command.from ? player.rollout_from(index, Float32Array.from(command.from)) : player.rollout(index) };
     }
+    case 'value_map':
+      return { generation: opened, map: whose(command.of).value_map(command.request) };
     case 'begin_drive':
       return { generation: opened, data: present().begin_drive(BigInt(command.index)) };
     case 'drive':
@@ -238,7 +247,7 @@ function obey(command) {
     case 'evaluate':
       stop();
       sendTelemetry();
-      return evaluate(generation, command.runs);
+      return evaluate(generation, command.runs, whose(command.of ?? 'present'));
     case 'check_formula':
       return check_formula(command.text, propositions);
     case 'check_hoa':

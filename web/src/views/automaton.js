@@ -7,7 +7,7 @@ import { setText } from '../dom.js';
 /** @typedef {import('../protocol.js').AutomatonGraph} AutomatonGraph */
 /** @typedef {import('../protocol.js').AutomatonEdge} AutomatonEdge */
 /** @typedef {import('../protocol.js').Frame} Frame */
-/** @typedef {{ renderSVGElement: (dot: string) => SVGSVGElement }} Viz */
+/** Drawings of graphs in DOT: those that the build made of task `task`, or fresh ones. @typedef {(dots: string[], task: string | null) => Promise<SVGSVGElement[]>} Draw */
 
 /** A text of DOT: quoted, with what it would read as an escape taken out. @param {string} s */
 const quote = (s) => `"${s.replace(/\\/g, '\\\\').replace(/"/g, '\\"')}"`;
@@ -113,12 +113,12 @@ export class Automaton {
   /**
    * @param {HTMLElement} root
    * @param {HTMLElement} now   where the present state is said in words
-   * @param {() => Promise<Viz>} loadViz
+   * @param {Draw} draw
    */
-  constructor(root, now, loadViz) {
+  constructor(root, now, draw) {
     this.root = root;
     this.now = now;
-    this.loadViz = loadViz;
+    this.draw = draw;
     /** @type {AutomatonGraph | null} */
     this.graph = null;
     this.q = -1;
@@ -126,15 +126,19 @@ export class Automaton {
     this.turn = 0;
   }
 
-  /** Draws another automaton. @param {AutomatonGraph} graph */
-  async show(graph) {
+  /**
+   * Draws another automaton.
+   * @param {AutomatonGraph} graph
+   * @param {string | null} [task]  the task whose automaton it may be
+   */
+  async show(graph, task = null) {
     const turn = ++this.turn;
     this.graph = graph;
     this.q = -1;
     this.edge = -2;
-    const viz = await this.loadViz();
+    const drawings = await this.draw([toDot(graph, 'LR'), toDot(graph, 'TB')], task);
     if (turn !== this.turn) return;
-    const svg = this.fitting(viz, graph);
+    const svg = this.fitting(drawings);
     svg.querySelectorAll('title').forEach((title) => title.remove());
     svg.setAttribute('role', 'img');
     svg.setAttribute('aria-label', inWords(graph));
@@ -150,14 +154,13 @@ export class Automaton {
     this.edge = -2;
   }
 
-  /** The drawing, from left to right or from top to bottom, whichever shows larger. @param {Viz} viz @param {AutomatonGraph} graph */
-  fitting(viz, graph) {
+  /** Of the drawing from left to right and the one from top to bottom the one that shows larger. @param {SVGSVGElement[]} drawings */
+  fitting([wide, tall]) {
     const { width, height } = this.root.getBoundingClientRect();
     const scale = (/** @type {SVGSVGElement} */ svg) => {
       const [, , w, h] = (svg.getAttribute('viewBox') ?? '0 0 1 1').split(' ').map(Number);
       return Math.min(width / w, Math.max(height, 190) / h);
     };
-    const [wide, tall] = /** @type {const} */ (['LR', 'TB']).map((direction) => viz.renderSVGElement(toDot(graph, direction)));
     return scale(wide) >= scale(tall) ? wide : tall;
   }
 

@@ -1,12 +1,16 @@
 // @ts-check
 // Paints a ball in an arena: regions as labelled discs, the ball with its trail and the push of the present action.
 
-import { drawRegion, drawTrail, projection } from './ground.js';
+import { drawEarlier, drawRegions, drawTrail, projection } from './ground.js';
+import { drawValues } from './value_picture.js';
 
 /** @typedef {import('../protocol.js').Scene} Scene */
 /** @typedef {Extract<import('../protocol.js').Body, { kind: 'ball' }>} Ball */
 /** @typedef {import('./stage.js').Moment} Moment */
 /** @typedef {import('./stage.js').Colours} Colours */
+
+/** How many earlier states the trail has. */
+const TRAIL = 240;
 
 export class BallPass {
   /**
@@ -22,17 +26,24 @@ export class BallPass {
     this.aspect = (x[1] - x[0]) / (y[1] - y[0]);
   }
 
-  /** @type {import('./stage.js').Painter['paint']} */
-  paint(context, width, height, moment, colours) {
+  /** @type {import('./stage.js').Painter['backdrop']} */
+  backdrop(context, width, height, scenery) {
+    const { colours, layers } = scenery;
     const to = projection(this.scene.ground, width, height);
     context.fillStyle = colours.paper;
     context.fillRect(0, 0, width, height);
-    this.grid(context, width, height, colours);
-    for (const region of this.scene.regions) {
-      drawRegion(context, to, region, this.propositions[region.proposition].name, moment.holds(region.proposition), colours);
-    }
+    if (scenery.value) drawValues(context, to, scenery.value, this.scene.ground, colours, 0.9);
+    else this.grid(context, width, height, colours);
+    drawRegions(context, to, this.scene, this.propositions, scenery);
+    if (layers.has('paths')) drawEarlier(context, to, scenery.earlier, this.ball.position, colours.accent);
+  }
+
+  /** @type {import('./stage.js').Painter['paint']} */
+  paint(context, width, height, moment, { colours, value }) {
+    const to = projection(this.scene.ground, width, height);
     const [cx, cy] = this.ball.position;
-    drawTrail(context, moment.trail.map((s) => to.point(s[cx], s[cy])), colours.accent);
+    const trail = moment.trail.tail(TRAIL);
+    drawTrail(context, trail.length, (k) => to.point(trail.value(k, cx), trail.value(k, cy)), colours.accent, value ? colours.paper : null);
     const [x, y] = to.point(moment.state[cx], moment.state[cy]);
     const radius = Math.max(to.size(this.ball.radius), 5);
     this.push(context, x, y, radius, moment.action, colours);

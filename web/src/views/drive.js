@@ -69,6 +69,11 @@ export class Driver {
     return true;
   }
 
+  /** Whether a key or the pointer pushes now. */
+  get pushes() {
+    return this.keys.size > 0 || this.pressed !== null;
+  }
+
   /**
    * The control of this moment.
    * @param {Description} description
@@ -81,7 +86,7 @@ export class Driver {
       push[0] += KEYS[key][0];
       push[1] += KEYS[key][1];
     }
-    if (this.pressed && stage.painter.pointer && stage.shown) {
+    if (this.pressed && stage.shown) {
       const { ground, body } = description.environment.scene;
       const [x, y] = stage.painter.pointer(...this.pressed, stage.width, stage.height);
       const { state } = stage.shown;

@@ -4,12 +4,20 @@
 import { shapePath } from '../palette.js';
 
 /** @typedef {import('../protocol.js').Ground} Ground */
+/** @typedef {import('../protocol.js').Scene} Scene */
 /** @typedef {import('../protocol.js').Region} Region */
+/** @typedef {import('../track.js').Track} Track */
 /** @typedef {import('./stage.js').Colours} Colours */
+/** @typedef {import('./stage.js').Scenery} Scenery */
 /** @typedef {ReturnType<typeof projection>} Projection */
 
-/** @param {string} name */
-export const isUnsafe = (name) => name === 'unsafe';
+/** Of a proposition with more regions than this the name stands once, in their middle. */
+const NAMED_EACH = 1;
+/** How many earlier runs are drawn, the oldest faintest. */
+export const EARLIER = 6;
+
+/** Whether a proposition says what is to be avoided: the scene's hazard, or one that is called so. @param {Scene} scene @param {import('../protocol.js').Proposition[]} propositions @param {number} p */
+export const isHazard = (scene, propositions, p) => p === scene.hazard || propositions[p]?.name === 'unsafe';
 
 /**
  * The map from the ground to a canvas of this size; the ground is fitted and centred.
@@ -35,9 +43,10 @@ export function projection(ground, width, height) {
 /**
  * @param {CanvasRenderingContext2D} context
  * @param {Projection} to
- * @param {Region} region  a disc or a polygon
+ * @param {Region} region
+ * @param {Ground} ground
  */
-export function trace(context, to, region) {
+export function trace(context, to, region, ground) {
   const { shape } = region;
   context.beginPath();
   if (shape.kind === 'disc') {
@@ -46,44 +55,79 @@ export function trace(context, to, region) {
   } else if (shape.kind === 'polygon') {
     shape.points.forEach(([x, y], k) => (k ? context.lineTo(...to.point(x, y)) : context.moveTo(...to.point(x, y))));
     context.closePath();
+  } else if (shape.kind === 'cells') {
+    // A grid begins in the top-left corner.
+    const [wide, high] = shape.cell;
+    const [left, top] = to.point(ground.x[0], ground.y_axis === 'up' ? ground.y[1] : ground.y[0]);
+    for (const [row, column, count] of shape.runs) {
+      context.rect(left + to.size(column * wide), top + to.size(row * high), to.size(count * wide), to.size(high));
+    }
   }
 }
 
-/** @param {Region} region @returns {[number, number]} */
-export function middle(region) {
+/** The middle of a region; of a band across the ground the middle of its channel. @param {Region} region @param {Ground} [ground] @returns {[number, number]} */
+export function middle(region, ground) {
   const { shape } = region;
   if (shape.kind === 'disc') return shape.centre;
-  if (shape.kind === 'polygon') {
-    const sum = shape.points.reduce(([a, b], [x, y]) => [a + x, b + y], [0, 0]);
-    return [sum[0] / shape.points.length, sum[1] / shape.points.length];
-  }
-  return [(shape.low + shape.high) / 2, 0];
+  if (shape.kind === 'polygon') return mean(shape.points);
+  if (shape.kind === 'band') return [(shape.low + shape.high) / 2, 0];
+  const [wide, high] = shape.cell;
+  const [x, y] = mean(shape.runs.map(([row, column, count]) => [(column + count / 2) * wide, (row + 0.5) * high]));
+  if (!ground) return [x, y];
+  return [ground.x[0] + x, ground.y_axis === 'up' ? ground.y[1] - y : ground.y[0] + y];
+}
+
+/** @param {[number, number][]} points @returns {[number, number]} */
+function mean(points) {
+  const sum = points.reduce(([a, b], [x, y]) => [a + x, b + y], [0, 0]);
+  return [sum[0] / Math.max(1, points.length), sum[1] / Math.max(1, points.length)];
 }
 
 /**
- * A region: outlined and named, filled while its proposition holds; hatched where it is unsafe.
+ * The regions of a scene: each outlined, filled while its proposition holds, hatched where it is the hazard; and the names.
  * @param {CanvasRenderingContext2D} context
  * @param {Projection} to
- * @param {Region} region
- * @param {string} name
- * @param {boolean} holds
- * @param {Colours} colours
+ * @param {Scene} scene
+ * @param {import('../protocol.js').Proposition[]} propositions
+ * @param {Scenery} scenery
  */
-export function drawRegion(context, to, region, name, holds, colours) {
-  const tint = isUnsafe(name) ? colours.unsafe : colours.regions[region.proposition % colours.regions.length];
-  trace(context, to, region);
-  context.fillStyle = tint;
-  context.globalAlpha = holds ? 0.5 : 0.16;
-  context.fill();
-  context.globalAlpha = 1;
-  if (isUnsafe(name)) hatch(context, tint);
-  context.lineWidth = holds ? 3 : 1.5;
-  context.strokeStyle = tint;
-  context.stroke();
-  if (isUnsafe(name)) return;
-  const [x, y] = to.point(...middle(region));
-  const below = region.shape.kind === 'disc' ? to.size(region.shape.radius) + 14 : 0;
-  nameTag(context, x, y + below, name, colours);
+export function drawRegions(context, to, scene, propositions, scenery) {
+  const { colours, layers } = scenery;
+  for (const region of scene.regions) {
+    const hazard = isHazard(scene, propositions, region.proposition);
+    if (!layers.has(hazard ? 'unsafe' : 'labels')) continue;
+    const holds = scenery.holds(region.proposition);
+    const tint = hazard ? colours.unsafe : colours.regions[region.proposition % colours.regions.length];
+    trace(context, to, region, scene.ground);
+    context.fillStyle = tint;
+    context.globalAlpha = holds ? 0.5 : 0.18;
+    context.fill('evenodd');
+    context.globalAlpha = 1;
+    if (hazard) hatch(context, tint);
+    if (region.shape.kind === 'cells') continue;
+    context.lineWidth = holds ? 3 : 1.5;
+    context.strokeStyle = tint;
+    context.stroke();
+  }
+  if (layers.has('labels')) drawNames(context, to, scene, propositions, colours);
+}
+
+/** @param {CanvasRenderingContext2D} context @param {Projection} to @param {Scene} scene @param {import('../protocol.js').Proposition[]} propositions @param {Colours} colours */
+function drawNames(context, to, scene, propositions, colours) {
+  propositions.forEach(({ name }, p) => {
+    if (isHazard(scene, propositions, p)) return;
+    const regions = scene.regions.filter((region) => region.proposition === p);
+    if (regions.length === 0) return;
+    const places = regions.length > NAMED_EACH ? [mean(regions.map((r) => middle(r, scene.ground)))] : regions.map((r) => middle(r, scene.ground));
+    for (const [x, y] of places) {
+      const radius = regions.length === 1 && regions[0].shape.kind === 'disc' ? to.size(regions[0].shape.radius) : 0;
+      const [px, py] = to.point(x, y);
+      // Above the disc where there is no room below.
+      const below = py + radius + 24 < context.canvas.clientHeight || context.canvas.clientHeight === 0;
+      const side = radius > 0 ? (below ? radius + 14 : -radius - 14) : 0;
+      nameTag(context, px, py + side, name, colours);
+    }
+  });
 }
 
 /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {string} name @param {Colours} colours */
@@ -102,13 +146,13 @@ export function nameTag(context, x, y, name, colours) {
 /** Slanted lines inside the path that was traced last. @param {CanvasRenderingContext2D} context @param {string} tint */
 export function hatch(context, tint) {
   context.save();
-  context.clip();
+  context.clip('evenodd');
   context.strokeStyle = tint;
   context.lineWidth = 1;
-  context.globalAlpha = 0.5;
+  context.globalAlpha = 0.6;
   const { width, height } = context.canvas;
   context.beginPath();
-  for (let x = -height; x < width; x += 9) {
+  for (let x = -height; x < width; x += 8) {
     context.moveTo(x, height);
     context.lineTo(x + height, 0);
   }
@@ -119,25 +163,58 @@ export function hatch(context, tint) {
 /**
  * A trail that fades towards its past.
  * @param {CanvasRenderingContext2D} context
- * @param {[number, number][]} points
+ * @param {number} count
+ * @param {(k: number) => [number, number]} point
  * @param {string} tint
+ * @param {string | null} [casing]  the colour of a border around it, for grounds of any colour
  */
-export function drawTrail(context, points, tint) {
-  const pieces = 24;
-  context.strokeStyle = tint;
+export function drawTrail(context, count, point, tint, casing = null) {
+  if (count < 2) return;
   context.lineCap = 'round';
   context.lineJoin = 'round';
-  for (let piece = 0; piece < pieces; piece++) {
-    const from = Math.floor((piece * (points.length - 1)) / pieces);
-    const to = Math.floor(((piece + 1) * (points.length - 1)) / pieces);
-    if (to <= from) continue;
-    context.globalAlpha = 0.06 + (0.6 * (piece + 1)) / pieces;
-    context.lineWidth = 1 + (2 * (piece + 1)) / pieces;
-    context.beginPath();
-    context.moveTo(...points[from]);
-    for (let k = from + 1; k <= to; k++) context.lineTo(...points[k]);
-    context.stroke();
+  if (casing) {
+    context.strokeStyle = casing;
+    context.globalAlpha = 0.55;
+    context.lineWidth = 4.5;
+    line(context, 0, count - 1, point);
   }
+  const pieces = Math.min(24, count - 1);
+  context.strokeStyle = tint;
+  for (let piece = 0; piece < pieces; piece++) {
+    const from = Math.floor((piece * (count - 1)) / pieces);
+    const to = Math.floor(((piece + 1) * (count - 1)) / pieces);
+    const age = (piece + 1) / pieces;
+    context.globalAlpha = casing ? 0.35 + 0.65 * age : 0.06 + 0.74 * age;
+    context.lineWidth = 1 + 2 * age;
+    line(context, from, to, point);
+  }
+  context.globalAlpha = 1;
+}
+
+/** @param {CanvasRenderingContext2D} context @param {number} from @param {number} to @param {(k: number) => [number, number]} point */
+function line(context, from, to, point) {
+  context.beginPath();
+  context.moveTo(...point(from));
+  for (let k = from + 1; k <= to; k++) context.lineTo(...point(k));
+  context.stroke();
+}
+
+/**
+ * The runs before this one, the latest strongest.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Projection} to
+ * @param {Track[]} runs  the latest last
+ * @param {[number, number]} channels
+ * @param {string} tint
+ */
+export function drawEarlier(context, to, runs, [cx, cy], tint) {
+  context.strokeStyle = tint;
+  context.lineWidth = 1;
+  context.lineJoin = 'round';
+  runs.slice(-EARLIER).forEach((run, k, kept) => {
+    context.globalAlpha = 0.08 + (0.22 * (k + 1)) / kept.length;
+    line(context, 0, run.length - 1, (j) => to.point(run.value(j, cx), run.value(j, cy)));
+  });
   context.globalAlpha = 1;
 }
 

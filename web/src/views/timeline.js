@@ -4,7 +4,7 @@
 import { colour } from '../dom.js';
 import { colourVariable, stateName } from '../palette.js';
 import { Frame } from '../protocol.js';
-import { fillShape, isUnsafe } from './ground.js';
+import { fillShape, isHazard } from './ground.js';
 
 /** @typedef {import('../protocol.js').Description} Description */
 /** @typedef {import('../protocol.js').Episode} Episode */
@@ -101,7 +101,7 @@ export class Timeline {
     if (!context || !this.description || box.width === 0) return;
     context.setTransform(scale, 0, 0, scale, 0, 0);
     context.clearRect(0, 0, box.width, box.height);
-    const { propositions } = this.description.environment;
+    const { propositions, scene } = this.description.environment;
     const episode = this.episode;
     const frame = new Frame(this.description.layout);
     const x = (/** @type {number} */ row) => LEFT + (row / Math.max(1, (episode?.rows ?? 1))) * (box.width - LEFT);
@@ -116,7 +116,7 @@ export class Timeline {
       context.fillStyle = colour('--track');
       context.fillRect(LEFT, y, box.width - LEFT, ROW);
       if (!episode) return;
-      context.fillStyle = colour(isUnsafe(proposition.name) ? '--unsafe' : colourVariable(p));
+      context.fillStyle = colour(isHazard(scene, propositions, p) ? '--unsafe' : colourVariable(p));
       for (const run of runs(episode.rows, (row) => frame.at(episode.data, row).bit('letter', p))) {
         if (run.value) context.fillRect(x(run.first), y, Math.max(1.5, x(run.end) - x(run.first)), ROW);
       }
