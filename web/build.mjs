@@ -1,7 +1,9 @@
 // @ts-check
 // Assembles the page into web/dist: sources, WebAssembly, libraries, fonts, assets, the drawings of the automata that come with it, and
 // the offline worker with its list of files. Prints what a first visit transfers, and fails when that is too much.
-// usage: node build.mjs [--mock] [--out DIR]     --mock: the scripted stand-in instead of the WebAssembly, for tests of the views
+// usage: node build.mjs [--mock] [--quick] [--out DIR]
+//   --mock   the scripted stand-in instead of the WebAssembly, for tests of the views
+//   --quick  the WebAssembly as the compiler made it, not optimised further
 
 import { execFile } from 'node:child_process';
 import { createHash } from 'node:crypto';
@@ -14,7 +16,7 @@ import { bakeDrawings } from './bake.mjs';
 import { initialState } from './src/state.js';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const { values } = parseArgs({ options: { mock: { type: 'boolean', default: false }, out: { type: 'string', default: join(here, 'dist') } } });
+const { values } = parseArgs({ options: { mock: { type: 'boolean', default: false }, quick: { type: 'boolean', default: false }, out: { type: 'string', default: join(here, 'dist') } } });
 const out = values.out;
 const modules = join(here, 'node_modules');
 
@@ -32,6 +34,7 @@ const FEATURES = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-f
  */
 async function optimised(file) {
   const name = createHash('sha256').update(await readFile(file)).digest('hex').slice(0, 16);
+  if (values.quick) return file;
   const made = join(dirname(file), `optimised-${name}.wasm`);
   if (!(await exists(made))) {
     for (const old of await readdir(dirname(file))) if (old.startsWith('optimised-')) await rm(join(dirname(file), old));

@@ -74,7 +74,7 @@ export class App {
         if (reply.generation !== this.generation) return;
         this.controls.rate(reply.rate);
         this.points = reply.curves;
-        this.curves?.update(reply.curves);
+        this.curves?.update(reply.curves, this.description?.modules);
         this.modules.update(reply.modules);
         this.signals.tell('telemetry', reply);
       },
@@ -157,7 +157,7 @@ export class App {
     }
     await this.open(this.state, true);
     this.curves = new Curves($.any('curves'), await loadPlot());
-    if (this.points) this.curves.update(this.points);
+    if (this.points) this.curves.update(this.points, this.description?.modules);
   }
 
   // --- the session --------------------------------------------------------------------------------------------------------

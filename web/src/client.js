@@ -74,6 +74,14 @@ export class Client {
     return this.ready;
   }
 
+  /** Ends the worker for good. */
+  close() {
+    this.worker?.terminate();
+    this.worker = null;
+    for (const { reject } of this.pending.values()) reject(new Error('the worker was ended'));
+    this.pending.clear();
+  }
+
   /** @param {string} message */
   broke(message) {
     for (const { reject } of this.pending.values()) reject(new Error(message));

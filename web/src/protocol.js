@@ -127,7 +127,7 @@
 /**
  * What the page asks of the worker. Each command is answered by one `done` or `failed` reply with its `id`.
  * @typedef {{ kind: 'open', request: OpenRequest }
- *   | { kind: 'train', pace: number }
+ *   | { kind: 'train', pace: number, until?: number }
  *   | { kind: 'pause' }
  *   | { kind: 'step' }
  *   | { kind: 'episode' }

@@ -74,12 +74,16 @@ function sendTelemetry() {
 }
 
 /**
- * Trains until another command takes over.
+ * Trains until another command takes over, or up to so many steps.
  * @param {number} mine
  * @param {number} pace  steps a second; 0: as fast as possible
+ * @param {number} until
  */
-async function train(mine, pace) {
+async function train(mine, pace, until = Infinity) {
   const open = present();
+  const counters = /** @type {Frame} */ (frame);
+  /** Steps that are left. */
+  let left = until - counters.at(open.frame(), 0).counter('step');
   let chunk = 8;
   let counted = 0;
   let since = performance.now();
@@ -91,17 +95,23 @@ async function train(mine, pace) {
     if (pace > 0) {
       due = Math.min(due + ((start - last) * pace) / 1000, Math.max(1, pace / 10));
       last = start;
-      const whole = Math.floor(due);
-      if (whole > 0) counted += open.advance(whole);
+      const whole = Math.min(Math.floor(due), left);
+      if (whole > 0) {
+        const made = open.advance(whole);
+        counted += made;
+        left -= made;
+      }
       due -= whole;
     } else {
       // Several calls a slice, each a quarter of it, so that a slow step is noticed in time.
       do {
         const before = performance.now();
-        counted += open.advance(chunk);
+        const made = open.advance(Math.min(chunk, left));
+        counted += made;
+        left -= made;
         const spent = performance.now() - before;
         chunk = Math.max(1, Math.min(4096, Math.round(spent > 0 ? (chunk * SLICE) / 4 / spent : chunk * 2)));
-      } while (performance.now() - start < SLICE - 2);
+      } while (left > 0 && performance.now() - start < SLICE - 2);
     }
     const now = performance.now();
     if (now - since > 500) {
@@ -114,7 +124,11 @@ async function train(mine, pace) {
       reported = now;
       sendTelemetry();
     }
-    if (open.finished && !told) {
+    if (left <= 0) {
+      sendTelemetry();
+      return;
+    }
+    if (open.finished && !told && until === Infinity) {
       // Once; whoever wants more presses Train again.
       told = true;
       stop();
@@ -215,7 +229,10 @@ function obey(command) {
     case 'train': {
       present();
       stop();
-      train(generation, command.pace).catch(fail);
+      const training = train(generation, command.pace, command.until);
+      // With an end in sight the answer comes at the end.
+      if (command.until !== undefined) return training;
+      training.catch(fail);
       return null;
     }
     case 'pause':

@@ -13,7 +13,12 @@ const CHARTS = Object.freeze([
   { quantity: 'average', title: 'Average reward', tint: '--set-0', unit: 'per step' },
   { quantity: 'total', title: 'Total reward', tint: '--set-1', unit: 'per episode' },
   { quantity: 'rounds', title: 'Rounds', tint: '--set-2', unit: 'per episode' },
+  { quantity: 'success', title: 'Success', tint: '--set-3', unit: 'share of episodes' },
 ]);
+/** How many modules' losses are drawn. */
+const LOSSES = 14;
+/** Dashes that tell the lines of modules apart beside their colours. */
+const DASHES = Object.freeze([[], [6, 3], [2, 2], [8, 3, 2, 3]]);
 
 export class Curves {
   /**
@@ -30,16 +35,20 @@ export class Curves {
       const canvas = element('div', { className: 'plot', 'aria-hidden': 'true' });
       root.append(element('figure', { className: 'curve' },
         element('figcaption', {}, element('span', { className: 'name' }, chart.title), element('span', { className: 'unit' }, chart.unit), value), canvas));
-      return { ...chart, value, canvas, plot: new Plot(options(chart.tint), [[], []], canvas) };
+      return { ...chart, value, canvas, plot: new Plot(options([{ stroke: () => colour(chart.tint) }]), [[], []], canvas) };
     });
-    root.append(this.note);
+    this.Plot = Plot;
+    /** The critics' losses, a line for each module. @type {{ canvas: HTMLElement, plot: Plot, lines: number } | null} */
+    this.losses = null;
+    this.lossRoot = element('figure', { className: 'curve' });
+    root.append(this.lossRoot, this.note);
     this.watcher = new ResizeObserver(() => this.fit());
     this.watcher.observe(root);
     this.fit();
   }
 
   fit() {
-    for (const { canvas, plot } of this.charts) {
+    for (const { canvas, plot } of this.losses ? [...this.charts, this.losses] : this.charts) {
       const { width, height } = canvas.getBoundingClientRect();
       if (width > 0) plot.setSize({ width, height });
     }
@@ -47,12 +56,32 @@ export class Curves {
 
   retheme() {
     for (const { plot } of this.charts) plot.redraw();
+    this.losses?.plot.redraw();
   }
 
-  /** @param {CurveData} data */
-  update(data) {
+  /** The losses of so many modules: a chart of its own for each number of lines. @param {number} modules @param {string[]} names */
+  lossChart(modules, names) {
+    const lines = Math.min(modules, LOSSES);
+    if (this.losses?.lines === lines) return this.losses;
+    this.losses?.plot.destroy();
+    const canvas = element('div', { className: 'plot', 'aria-hidden': 'true' });
+    const tints = Array.from({ length: lines }, (_, k) => ({ stroke: () => colour(`--set-${k % 6}`), dash: DASHES[Math.floor(k / 6) % DASHES.length] }));
+    const key = tints.map((_, k) => element('span', { className: `key set-${k % 6}` }, names[k] ?? `module ${k}`));
+    this.lossRoot.replaceChildren(element('figcaption', {}, element('span', { className: 'name' }, 'Critic loss'), element('span', { className: 'unit' }, 'per module')),
+      canvas, element('p', { className: 'keys-row' }, ...key));
+    this.losses = { canvas, lines, plot: new this.Plot(options(tints), [[], ...tints.map(() => [])], canvas) };
+    this.fit();
+    return this.losses;
+  }
+
+  /** @param {CurveData} data @param {string[]} [names]  what the modules are called */
+  update(data, names = []) {
     this.data = data;
     const n = data.episode.length;
+    if (data.modules.length > 0) {
+      const { plot, lines } = this.lossChart(data.modules.length, names);
+      plot.setData([data.episode, ...data.modules.slice(0, lines).map((curve) => Array.from(curve, (v) => (Number.isFinite(v) ? v : null)))]);
+    } else this.losses?.plot.setData([[], ...Array.from({ length: this.losses.lines }, () => [])]);
     for (const { quantity, value, plot } of this.charts) {
       plot.setData([data.episode, data[quantity]]);
       setText(value, n > 0 ? brief(data[quantity][n - 1]) : '–');
@@ -65,13 +94,14 @@ export class Curves {
     const data = this.data;
     if (!data) return '';
     const names = /** @type {const} */ (['episode', 'average', 'total', 'rounds', 'success', 'critic']);
-    const rows = Array.from(data.episode, (_, k) => names.map((name) => data[name][k]).join(','));
-    return [names.join(','), ...rows].join('\n') + '\n';
+    const modules = data.modules.map((_, m) => `critic_${m}`);
+    const rows = Array.from(data.episode, (_, k) => [...names.map((name) => data[name][k]), ...data.modules.map((curve) => (Number.isFinite(curve[k]) ? curve[k] : ''))].join(','));
+    return [[...names, ...modules].join(','), ...rows].join('\n') + '\n';
   }
 }
 
-/** @param {string} tint */
-function options(tint) {
+/** The axes of every chart of the page. */
+export function axes() {
   const axis = {
     stroke: () => colour('--ink-soft'),
     font: '11px "IBM Plex Sans Variable", system-ui, sans-serif',
@@ -79,6 +109,14 @@ function options(tint) {
     ticks: { show: false },
     gap: 3,
   };
+  return [
+    { ...axis, size: 20, space: 60 },
+    { ...axis, size: 52, space: 28, values: (/** @type {unknown} */ _, /** @type {number[]} */ ticks) => ticks.map(brief) },
+  ];
+}
+
+/** @param {{ stroke: () => string, dash?: number[] }[]} lines */
+function options(lines) {
   return {
     width: 300,
     height: 100,
@@ -86,11 +124,8 @@ function options(tint) {
     legend: { show: false },
     cursor: { sync: { key: 'episodes' }, y: false, points: { size: 6 }, drag: { x: false, y: false } },
     scales: { x: { time: false }, y: { range: (/** @type {unknown} */ _, /** @type {number} */ low, /** @type {number} */ high) => span(low, high) } },
-    series: [{}, { stroke: () => colour(tint), width: 1.75, points: { show: false } }],
-    axes: [
-      { ...axis, size: 20, space: 60 },
-      { ...axis, size: 52, space: 28, values: (/** @type {unknown} */ _, /** @type {number[]} */ ticks) => ticks.map(brief) },
-    ],
+    series: [{}, ...lines.map((line) => ({ ...line, width: 1.75, points: { show: false }, spanGaps: true }))],
+    axes: axes(),
   };
 }
 

@@ -118,7 +118,7 @@ export class Session {
         scene: {
           ground: { x: [0, 600], y: [0, 600], unit: 'm', y_axis: 'up' },
           regions: [[180, 180], [480, 360]].map((centre, k) => ({ proposition: k, name: `Region ${k + 1}`, shape: { kind: 'disc', centre, radius: 30 }, margin: 10 })),
-          body: { kind: 'ball', radius: 10, position: [0, 1], velocity: [2, 3] }, picture: null,
+          body: { kind: 'ball', radius: 10, position: [0, 1], velocity: [2, 3] }, picture: null, hazard: null,
         },
       },
       automaton: {
@@ -166,7 +166,7 @@ export class Session {
     const rise = (/** @type {number} */ k) => 1 - Math.exp(-k / 80);
     return {
       every: 1, episode: each((k) => k), average: each((k) => 0.0002 * rise(k) + 0.00004 * Math.sin(k * 1.7)), total: each((k) => 0.04 * rise(k) + 0.006 * Math.sin(k * 2.3)),
-      rounds: each((k) => Math.round(2 * rise(k) + 0.4 * Math.sin(k * 3.1))), success: each((k) => rise(k)), critic: each((k) => 0.01 / (1 + k / 30)),
+      rounds: each((k) => Math.round(2 * rise(k) + 0.4 * Math.sin(k * 3.1))), success: each((k) => rise(k)), critic: each((k) => 0.01 / (1 + k / 30)), modules: [0.008, 0.012].map((c) => each((k) => c / (1 + k / 30))),
     };
   }
   statistics() {
