@@ -351,7 +351,9 @@ impl Session {
         for (name, column) in curves.columns() {
             set(&object, name, Float32Array::from(column));
         }
-        set(&object, "modules", curves.modules.iter().map(|curve| Float32Array::from(curve.as_slice())).collect::<Array>());
+        let numbers = |curve: &Vec<Option<f32>>| curve.iter().map(|loss| loss.unwrap_or(f32::NAN)).collect::<Vec<f32>>();
+        let columns = curves.modules.iter().map(|curve| Float32Array::from(numbers(curve).as_slice()));
+        set(&object, "modules", columns.collect::<Array>());
         object.unchecked_into()
     }
 

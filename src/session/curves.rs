@@ -27,9 +27,9 @@ impl LossSum {
         *self = LossSum(self.0 + other.0, self.1 + other.1);
     }
 
-    /// The mean; NaN where there was no update.
-    fn mean(self) -> f32 {
-        (self.0 / self.1 as f64) as f32
+    /// The mean; `None` where there was no update.
+    fn mean(self) -> Option<f32> {
+        (self.1 > 0).then(|| (self.0 / self.1 as f64) as f32)
     }
 }
 
@@ -104,8 +104,8 @@ pub struct Curves {
     pub success: Vec<f32>,
     /// Critic loss, over all modules.
     pub critic: Vec<f32>,
-    /// Critic loss of each module; NaN where it was not updated.
-    pub modules: Vec<Vec<f32>>,
+    /// Critic loss of each module; `None` where it was not updated.
+    pub modules: Vec<Vec<Option<f32>>>,
 }
 
 impl Curves {
@@ -221,8 +221,8 @@ mod tests {
         let n = curves.episode.len();
         assert!((MAX_POINTS / 2..MAX_POINTS).contains(&n), "{n} points");
         assert!(curves.every.is_power_of_two());
-        assert!(curves.critic.iter().chain(&curves.modules[1]).all(|&loss| loss == 0.5));
-        assert!(curves.modules[0].iter().all(|loss| loss.is_nan()) && curves.modules[0].len() == n);
+        assert!(curves.critic.iter().all(|&loss| loss == 0.5) && curves.modules[1].iter().all(|&loss| loss == Some(0.5)));
+        assert_eq!(curves.modules[0], vec![None; n]);
         // Means of equally many episodes: the mean of means over complete points is the mean over their episodes.
         let covered = n as u32 * curves.every;
         assert_eq!(*curves.episode.last().unwrap(), covered as f32);

@@ -64,7 +64,9 @@ impl Session {
         let run = setup.resume(&checkpoint).map_err(refusal)?;
         let hoa = setup.hoa().map(str::to_owned).unwrap_or_else(|| written(setup.automaton()));
         let origin = &checkpoint.origin;
+        let critics = checkpoint.has_critics();
         let mut session = Session::around(request_of(&checkpoint)?, setup, origin.task_name.clone(), hoa, run);
+        session.critics = critics;
         if let Some(curves) = origin.notes.get(CURVES) {
             session.curves = CurveRecorder::read(curves).map_err(|e| Refusal::new(Subject::Checkpoint, e))?;
         }

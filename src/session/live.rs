@@ -53,6 +53,8 @@ pub struct Session {
     pub(super) curves: CurveRecorder,
     pub(super) activity: Vec<Activity>,
     last: Option<Tick>,
+    /// Whether the critics are those of the policy: some policy files hold actors alone.
+    pub(super) critics: bool,
     /// Σ R(x') of the present episode, and the losses of its updates.
     pub(super) total: f64,
     pub(super) losses: EpisodeLosses,
@@ -92,6 +94,7 @@ impl Session {
             curves: CurveRecorder::default(),
             activity,
             last: None,
+            critics: true,
             total: 0.0,
             losses: EpisodeLosses::new(modules),
             check: None,
@@ -350,8 +353,12 @@ impl Session {
     /// What the critic of the module in charge thinks of a plane of states.
     ///
     /// # Errors
-    /// A grid that is empty or too fine, or an embedded state that no module is in charge of.
+    /// A grid that is empty or too fine, an embedded state that no module is in charge of, or a policy that came without its critics.
     pub fn value_map(&mut self, request: &ValueMapRequest) -> Result<ValueMap, Refusal> {
+        if !self.critics {
+            let message = "this policy came without its critics: it knows what to do, but not what that is worth";
+            return Err(Refusal::new(Subject::Session, message));
+        }
         let product = self.run.trainer().product().clone();
         value_map::over(&product, self.run.trainer_mut().learner_mut(), request)
     }

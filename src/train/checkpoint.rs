@@ -130,14 +130,12 @@ impl Run {
         Record { metadata, tensors }.to_bytes().expect("names are unique and shapes count their values")
     }
 
-    /// The best policy alone (of this moment, if no evaluation has seen one) as the bytes of a small file: actors, and critics too
-    /// where there are ε-moves, which are chosen by value. It can be replayed and evaluated, not trained on.
+    /// The best policy alone (of this moment, if no evaluation has seen one) as the bytes of a small file: actors and critics, without
+    /// targets and optimisers. It can be replayed, evaluated and asked what it expects from a place, not trained on.
     pub fn save_policy(&self, origin: &Origin) -> Vec<u8> {
-        let automaton = self.trainer.product.embedding().automaton();
-        let by_value = automaton.states().any(|q| !automaton.epsilon(q).is_empty());
         let needed = |t: &NetworkTensor| {
             let role = t.name.splitn(3, '.').nth(2).unwrap_or_default();
-            role.starts_with("actor.") || by_value && role.starts_with("critic") && !role.contains("target")
+            role.starts_with("actor.") || role.starts_with("critic") && !role.contains("target")
         };
         let mut tensors = named(&self.policy());
         tensors.retain(needed);
@@ -253,6 +251,11 @@ impl Checkpoint {
         let state = state.map_err(|e| CheckpointError::new(format!("its state is malformed: {}", e.message())))?;
         let tensors = record.tensors.into_iter().map(|t| (t.name.clone(), t)).collect();
         Ok(Checkpoint { origin, seed, state, tensors })
+    }
+
+    /// Whether the critics are among its networks: without them a policy knows what to do, but not what that is worth.
+    pub fn has_critics(&self) -> bool {
+        self.tensors.keys().any(|name| name.contains(".critic"))
     }
 
     /// Whether training can go on from it; otherwise it is a policy file.
