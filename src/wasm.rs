@@ -153,6 +153,12 @@ pub fn map_of_picture(name: &str, width: u32, height: u32, pixels: &[u8]) -> JsM
     map_verdict(session::map_of_picture(name, width as usize, height as usize, pixels))
 }
 
+/// The map file that a map of one's own begins with.
+#[wasm_bindgen]
+pub fn default_map() -> String {
+    session::default_map().to_owned()
+}
+
 fn map_verdict(result: Result<session::MapFacts, Refusal>) -> JsMapVerdict {
     let indices = result.as_ref().ok().map(|facts| Uint8Array::from(facts.indices.as_slice()));
     let object: JsMapVerdict = verdict(result);
@@ -251,6 +257,11 @@ impl Session {
     /// The best policy alone: small, to be shown, not trained on.
     pub fn save_policy(&self) -> Uint8Array {
         Uint8Array::from(self.0.save_policy().as_slice())
+    }
+
+    /// The rover map of the open task as one map file, if it has one.
+    pub fn map(&self) -> Option<String> {
+        self.0.map()
     }
 
     /// Everything that does not change from step to step.

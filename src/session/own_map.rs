@@ -1,5 +1,7 @@
 //! The user's own rover map: what a painter must know of it, a map made of a picture, and a task put on a map.
 
+use super::builtin;
+use super::live::Session;
 use super::open::rewritten;
 use super::refusal::{Refusal, Subject};
 use crate::env::map::{MAX_SIDE, MapError, Picture, RoverMap};
@@ -104,12 +106,26 @@ pub fn map_of_picture(name: &str, width: usize, height: usize, pixels: &[u8]) ->
     Ok(MapFacts::new(&map))
 }
 
+/// The map file that a map of one's own begins with.
+pub fn default_map() -> &'static str {
+    builtin::map_of("own_map").expect("it is shipped")
+}
+
 pub(super) fn read(json: &str, image: Option<&[u8]>) -> Result<RoverMap, Refusal> {
     RoverMap::from_json(json, image).map_err(map_refusal)
 }
 
 fn map_refusal(error: MapError) -> Refusal {
     Refusal::new(Subject::Map, error.to_string())
+}
+
+impl Session {
+    /// The rover map of the open task as one map file; `None` for a task without a map.
+    pub fn map(&self) -> Option<String> {
+        let task = self.setup.task();
+        let named = task.file().environment.map.as_deref().and_then(RoverMap::shipped);
+        named.map(str::to_owned).or_else(|| task.map().map(|map| map.to_json()))
+    }
 }
 
 /// Whether the map has every proposition of the task's formula, under the names of its environment.

@@ -6,6 +6,7 @@ import { Client, Refused } from './client.js';
 import { byId, count, forgetColours, offer, setText } from './dom.js';
 import { notice } from './keeping.js';
 import { tellProblems } from './link.js';
+import { NoMap } from './maps/shelf.js';
 import { Signals } from './signals.js';
 import { initialState } from './state.js';
 import { Theatre } from './theatre.js';
@@ -20,6 +21,8 @@ import { Spec } from './views/spec.js';
 
 /** The runs of an evaluation. */
 const RUNS = 200;
+/** How often within a minute a worker may break and be started again. */
+const BREAKS = 3;
 
 const $ = {
   button: (/** @type {string} */ id) => byId(id, HTMLButtonElement),
@@ -29,9 +32,14 @@ const $ = {
 };
 
 export class App {
-  /** @param {State} state */
-  constructor(state) {
+  /** @param {State} state @param {import('./maps/shelf.js').Shelf} shelf  the maps that the state has keys of */
+  constructor(state, shelf) {
     this.state = state;
+    this.shelf = shelf;
+    /** Gives the last checkpoint of the open run, for when its worker breaks. @type {() => Promise<Uint8Array | null>} */
+    this.lastCheckpoint = async () => null;
+    /** When workers broke, in milliseconds. @type {number[]} */
+    this.breaks = [];
     this.signals = new Signals();
     /** @type {Description | null} */
     this.description = null;
@@ -91,6 +99,11 @@ export class App {
           : `Learned: every run of the evaluation after ${count(first_perfect_step)} steps satisfies the task. Press Train to go on.`);
         this.signals.tell('finished', first_perfect_step);
       },
+      halted: ({ generation, message }) => {
+        if (generation !== this.generation) return;
+        this.setTraining(false);
+        notice(`Training was stopped: ${message}.`, true);
+      },
       broken: (message) => this.mend(message),
     };
   }
@@ -105,7 +118,7 @@ export class App {
       {
         checkFormula: (text) => this.client.ask({ kind: 'check_formula', text }),
         checkHoa: (text) => this.client.ask({ kind: 'check_hoa', text }),
-        chooseTask: (task) => this.open({ ...this.state, task, formula: '', hoa: '', preset: '', set: {} }),
+        chooseTask: (task) => this.open({ ...this.state, task, formula: '', hoa: '', map: '', preset: '', set: {} }),
         choosePreset: (preset) => this.open({ ...this.state, preset }),
         useFormula: (formula) => this.open({ ...this.state, formula, hoa: '' }),
         useHoa: (hoa) => this.open({ ...this.state, hoa }),
@@ -148,7 +161,7 @@ export class App {
       this.tasks = await this.client.ready;
       this.policies = await listed;
       this.spec.offer(this.tasks);
-      if (!this.tasks.some((t) => t.name === this.state.task)) {
+      if (!this.state.task.includes('\n') && !this.tasks.some((t) => t.name === this.state.task)) {
         tellProblems([{ property: 'task', message: `${this.state.task} is unknown; known are ${this.tasks.map((t) => t.name).join(', ')}` }]);
         this.state = { ...initialState(), seed: this.state.seed };
       }
@@ -166,39 +179,53 @@ export class App {
    * Opens a task; whether it stands. A refusal is shown at the field that caused it and the present session stays.
    * @param {State} next
    * @param {boolean} [first]  whether nothing is open yet: a refusal then falls back to the task as it is shipped
+   * @param {(error: Error) => void} [tell]  what a refusal is told to; else it is shown
    */
-  async open(next, first = false) {
+  async open(next, first = false, tell) {
     const { task, formula, hoa, seed, preset, set } = next;
-    const request = { task, formula: formula || null, hoa: hoa || null, seed, preset: preset || null, overrides: set };
     try {
+      const map = next.map ? await this.shelf.textOf(next.map) : null;
+      const request = { task, formula: formula || null, hoa: hoa || null, map, seed, preset: preset || null, overrides: set };
       const { generation, description } = await this.client.ask({ kind: 'open', request });
       this.state = next;
       this.opened(generation, description);
       return true;
     } catch (error) {
-      if (first) await this.open({ ...initialState(), task, seed });
+      if (first) await this.open({ ...initialState(), task: task.includes('\n') ? initialState().task : task, seed });
       // The formula of a link stands in the field before it is called wrong.
       if (formula && error instanceof Refused) await this.spec.putFormula(formula);
-      this.refused(error, next);
+      if (tell && error instanceof Error) tell(error);
+      else this.refused(error, next);
       return false;
     }
   }
 
-  /** Opens a checkpoint; whether it stands. @param {Uint8Array} bytes */
-  async restore(bytes) {
+  /** Opens a checkpoint; whether it stands. @param {Uint8Array} bytes @param {Partial<State>} [view]  what the page showed of it */
+  async restore(bytes, view = { watch: 'policy' }) {
     const answer = await this.ask({ kind: 'restore', bytes });
     if (!answer) return false;
     const { generation, description } = answer;
-    const { name: task, preset } = description.task;
-    /** @type {Partial<State>} */
-    const shown = { task, preset, seed: description.seed, formula: '', hoa: '', set: {}, watch: 'policy' };
-    this.state = { ...this.state, ...shown };
+    this.state = { ...this.state, ...view, ...(await this.stateOf(description.request)), preset: description.task.preset };
     this.opened(generation, description);
     return true;
   }
 
+  /** The part of the state that a request stands for. @param {Record<string, any>} request  from outside: what is no text is left out */
+  async stateOf({ task, formula, hoa, map, seed, preset, overrides }) {
+    const text = (/** @type {unknown} */ value) => (typeof value === 'string' ? value : '');
+    /** @type {Partial<State>} */
+    const part = {
+      task: text(task) || initialState().task, formula: text(formula), hoa: text(hoa), map: text(map) && (await this.shelf.keyOf(text(map))), preset: text(preset),
+      seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : 1,
+      set: Object.fromEntries(Object.entries(overrides ?? {}).map(([key, value]) => [key, String(value)])),
+    };
+    return part;
+  }
+
   /** @param {unknown} error @param {State} next */
   refused(error, next) {
+    if (error instanceof NoMap) notice(error.message, true);
+    // What a worker that broke leaves unanswered has been told already.
     if (!(error instanceof Refused)) return;
     const { where } = error;
     if (where.field === 'formula' && next.formula) this.spec.refuse(where);
@@ -230,8 +257,8 @@ export class App {
 
   /** Loads the trained policy of the open task, if one comes with the page and the task is as it is shipped. @param {number} mine */
   async loadTrained(mine) {
-    const { task, formula, hoa } = this.state;
-    if (formula || hoa || !this.policies.includes(task)) return false;
+    const { task, formula, hoa, map } = this.state;
+    if (formula || hoa || map || !this.policies.includes(task)) return false;
     try {
       const answer = await fetch(`assets/policies/${task}.safetensors`);
       if (!answer.ok || mine !== this.generation) return false;
@@ -258,14 +285,25 @@ export class App {
     if (this.description && this.state.set[key] !== value) this.settings.show(this.description.settings, this.state.set);
   }
 
-  /** A worker that broke is replaced, and the task opened anew. @param {string} message */
+  /** A worker that broke is replaced, and the run goes on from its last checkpoint. @param {string} message */
   async mend(message) {
-    notice(`The computation stopped: ${message}. It was started again with the same task and seed.`, true);
-    if (this.description === null) return;
+    const now = performance.now();
+    this.breaks = [...this.breaks.filter((then) => now - then < 60_000), now];
+    if (this.description === null || this.breaks.length > BREAKS) {
+      return notice(`The computation stopped: ${message}. Reload the page to try again${this.description ? '; what was kept is offered then' : ''}.`, true);
+    }
     this.description = null;
+    this.setTraining(false);
     this.theatre.close();
+    // A checkpoint on which a worker breaks twice is not tried a third time.
+    const bytes = this.breaks.length < BREAKS ? await this.lastCheckpoint() : null;
     await this.client.restart().catch(() => {});
-    await this.open(this.state, true);
+    if (bytes && (await this.restore(bytes, {}))) {
+      notice(`The computation stopped: ${message}. It was started again from the last checkpoint of this run. Press Train to go on.`, true);
+    } else {
+      notice(`The computation stopped: ${message}. It was started again with the same task and seed.`, true);
+      await this.open(this.state, true);
+    }
   }
 
   // --- training -----------------------------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ export class Refused extends Error {
  * @property {(reply: Extract<Reply, { kind: 'telemetry' }>) => void} telemetry
  * @property {(reply: Extract<Reply, { kind: 'evaluation' }>) => void} evaluation
  * @property {(reply: Extract<Reply, { kind: 'finished' }>) => void} finished
+ * @property {(reply: Extract<Reply, { kind: 'halted' }>) => void} halted
  * @property {(message: string) => void} broken
  */
 
@@ -111,6 +112,9 @@ export class Client {
         break;
       case 'finished':
         this.listeners.finished(reply);
+        break;
+      case 'halted':
+        this.listeners.halted(reply);
         break;
     }
   }

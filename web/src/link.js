@@ -3,6 +3,7 @@
 
 import { byId } from './dom.js';
 import { notice } from './keeping.js';
+import { inLink } from './maps/shelf.js';
 import { readHash, writeHash } from './state.js';
 
 /** @typedef {import('./app.js').App} App */
@@ -29,7 +30,10 @@ export function wireLink(app) {
     write();
     try {
       await navigator.clipboard.writeText(location.href);
-      notice('The link to this task, seed and view is copied.');
+      const { map } = app.state;
+      notice(map && !inLink(map)
+        ? 'The link is copied, but its map is too large for a link: it opens on this machine only. Send the map too: Paint map, then Save as file.'
+        : 'The link to this task, seed and view is copied.');
     } catch {
       notice(`Copy the address of this page: ${location.href}`);
     }

@@ -5,10 +5,15 @@ import { App } from './app.js';
 import { wireChrome } from './chrome.js';
 import { byId, element } from './dom.js';
 import { wireFiles } from './files.js';
+import { Keeper } from './keep/keeper.js';
+import { wireKeptRuns } from './keep/panel.js';
+import { Store } from './keep/store.js';
 import { wireKept } from './kept.js';
 import { wireKeys } from './keys.js';
 import { wireLayers } from './layers.js';
 import { tellProblems, wireLink } from './link.js';
+import { Shelf } from './maps/shelf.js';
+import { wireMaps } from './maps/wire.js';
 import { readHash } from './state.js';
 import { wireValues } from './values.js';
 
@@ -16,9 +21,14 @@ if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
   byId('notices', HTMLElement).append(element('p', { className: 'notice problem' }, 'This browser has no WebAssembly or no workers; the page cannot compute anything here.'));
 } else {
   const { state, problems } = readHash(location.hash);
-  const app = new App(state);
-  for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues, wireFiles]) wire(app);
+  const store = new Store();
+  const app = new App(state, new Shelf(store));
+  for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues]) wire(app);
+  wireFiles(app, wireMaps(app, store));
+  const keeper = new Keeper(app, store);
+  wireKeptRuns(keeper, store);
+  app.lastCheckpoint = () => keeper.last();
   tellProblems(problems);
-  app.start();
+  app.start().then(() => keeper.offer());
   if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js').catch(() => {});
 }

@@ -12,6 +12,7 @@
  * @property {string} task       name of a built-in task, or the text of a task file
  * @property {string | null} formula   LTL formula in place of the task's
  * @property {string | null} hoa       automaton in HOA format in place of the task's
+ * @property {string | null} map       map file (JSON) in place of a rover task's
  * @property {number} seed       0 … 2^53−1
  * @property {string | null} preset    name of a preset of the task
  * @property {Record<string, string>} overrides   dotted key of the task file → TOML value
@@ -46,6 +47,7 @@
  * @property {Setting[]} settings
  * @property {number} seed
  * @property {Layout} layout
+ * @property {OpenRequest} request   what opens the same task anew
  */
 
 /** @typedef {{ message: string, hint: string, field: string, start: number, end: number, line: number, column: number }} Located */
@@ -54,6 +56,25 @@
  * @typedef {{ ok: true, facts: FormulaFacts } | { ok: false, error: Located }} FormulaVerdict
  */
 /** @typedef {{ ok: true, facts: { states: number, sets: number, propositions: string[] } } | { ok: false, error: Located }} HoaVerdict */
+
+/**
+ * Everything of a map that a painter must know.
+ * @typedef {object} MapFacts
+ * @property {string} name
+ * @property {string} unit
+ * @property {[number, number]} size      width and height, in `unit`
+ * @property {number} reach               the longest way of one step, in `unit`
+ * @property {{ name: string, meaning: string, area: number }[]} labels
+ * @property {number | null} hazard       the label that wins over all others
+ * @property {string | null} picture
+ * @property {[number, number]} cells     columns and rows
+ * @property {number[][]} letters         the letters that occur, each as indices of its labels
+ * @property {Uint8Array} indices         the letter of each cell, row by row from the top
+ * @property {number} start_cells
+ * @property {string} suggested           a formula to begin with; empty for a map without labels
+ * @property {string} json                the map as one map file
+ */
+/** @typedef {{ ok: true, facts: MapFacts } | { ok: false, error: Located }} MapVerdict */
 
 /**
  * Learning curves: one entry per kept point; a point is the mean over `every` episodes.
@@ -141,7 +162,11 @@
  *   | { kind: 'check_hoa', text: string }
  *   | { kind: 'read_word', word: Word }
  *   | { kind: 'judge_word', formula: string, word: Word }
+ *   | { kind: 'check_map', json: string, image: Uint8Array | null }
+ *   | { kind: 'map_of_picture', name: string, width: number, height: number, pixels: Uint8Array }
+ *   | { kind: 'present_map' }
  *   | { kind: 'save', form: 'whole' | 'small' | 'policy' }
+ *   | { kind: 'keep', form: 'whole' | 'small' }
  *   | { kind: 'restore', bytes: Uint8Array }} Command
  */
 
@@ -151,9 +176,10 @@
  *   | { kind: 'done', id: number, value: any }
  *   | { kind: 'failed', id: number, error: Located }
  *   | { kind: 'frame', generation: number, data: Float32Array }
- *   | { kind: 'telemetry', generation: number, rate: number, curves: Curves, modules: ModuleStatistics[] }
+ *   | { kind: 'telemetry', generation: number, rate: number, steps: number, memory: number, curves: Curves, modules: ModuleStatistics[] }
  *   | { kind: 'evaluation', generation: number, progress: EvaluationProgress }
  *   | { kind: 'finished', generation: number, first_perfect_step: number | null }
+ *   | { kind: 'halted', generation: number, message: string }
  *   | { kind: 'broken', message: string }} Reply
  */
 

@@ -1,11 +1,14 @@
 // @ts-check
 // The page's state that a link carries: one table of properties, read from and written to the URL hash.
 
+import { MAX_IN_LINK } from './maps/shelf.js';
+
 /**
  * @typedef {object} State
- * @property {string} task      name of a built-in task
+ * @property {string} task      name of a built-in task, or the text of a task file
  * @property {string} formula   LTL formula in place of the task's; empty: the task's own
  * @property {string} hoa       automaton in place of the task's; empty: the task's own
+ * @property {string} map       key of a map of one's own; empty: the task's own
  * @property {string} preset    empty: the task's first
  * @property {number} seed
  * @property {Record<string, string>} set   overrides of the task file, dotted key → TOML value
@@ -116,9 +119,10 @@ const list = (initial, known) => ({
 
 /** @type {{ [K in keyof State]: Property<State[K]> }} */
 export const PROPERTIES = {
-  task: text('ball_pass_b1', 64, /^[a-z0-9_]+$/),
+  task: text('ball_pass_b1', MAX_HOA_IN_LINK, /^([a-z0-9_]{1,64}|[^]*\n[^]*)$/),
   formula: text('', 2000),
   hoa: text('', MAX_HOA_IN_LINK),
+  map: text('', MAX_IN_LINK, /^[A-Za-z0-9._-]*$/),
   preset: text('', 64, /^[a-z0-9_-]*$/),
   seed: whole(1, Number.MAX_SAFE_INTEGER),
   set: settings,
@@ -173,7 +177,7 @@ export function writeHash(state) {
   for (const key of KEYS) {
     const property = /** @type {Property<any>} */ (PROPERTIES[key]);
     const written = property.write(state[key]);
-    if (written !== property.write(property.initial) && written.length <= MAX_HOA_IN_LINK) out.set(key, written);
+    if (written !== property.write(property.initial) && written.length <= (key === 'map' ? MAX_IN_LINK : MAX_HOA_IN_LINK)) out.set(key, written);
   }
   const search = out.toString();
   return search ? `#${search}` : '';

@@ -2,7 +2,7 @@
 /// <reference lib="webworker" />
 // The worker: owns one session and the clock. Trains in slices of about 16 ms and listens to commands between them.
 
-import init, { Session, builtin_tasks, check_formula, check_hoa, judge_word } from '../pkg/ltl_rover.js';
+import init, { Session, builtin_tasks, check_formula, check_hoa, check_map, default_map, judge_word, map_of_picture } from '../pkg/ltl_rover.js';
 import { END, Frame, located } from './protocol.js';
 
 /** @typedef {import('./protocol.js').Command} Command */
@@ -15,7 +15,11 @@ const scope = /** @type {DedicatedWorkerGlobalScope} */ (/** @type {unknown} */ 
 const SLICE = 16;
 /** How often curves and statistics are sent while training, in milliseconds. */
 const TELEMETRY = 250;
+/** Training stops before the module's memory is larger than this, in bytes: replays of large recipes grow for hours. */
+const MAX_MEMORY = 2 ** 31;
 
+/** The module's memory. @type {WebAssembly.Memory | null} */
+let memory = null;
 /** @type {Session | null} */
 let session = null;
 /** A trained policy that came with the page, for its episodes only. @type {Session | null} */
@@ -70,7 +74,9 @@ function sendFrame() {
 
 function sendTelemetry() {
   const open = present();
-  tell({ kind: 'telemetry', generation: opened, rate, curves: open.curves(), modules: open.statistics() });
+  const steps = /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step');
+  const bytes = memory?.buffer.byteLength ?? 0;
+  tell({ kind: 'telemetry', generation: opened, rate, steps, memory: bytes, curves: open.curves(), modules: open.statistics() });
 }
 
 /**
@@ -123,6 +129,10 @@ async function train(mine, pace, until = Infinity) {
     if (now - reported > TELEMETRY) {
       reported = now;
       sendTelemetry();
+      if ((memory?.buffer.byteLength ?? 0) > MAX_MEMORY) {
+        stop();
+        tell({ kind: 'halted', generation: opened, message: `its memory has grown to ${Math.round(MAX_MEMORY / 1e9)} GB. Start again with a smaller learner.replay` });
+      }
     }
     if (left <= 0) {
       sendTelemetry();
@@ -208,8 +218,8 @@ function single(advance) {
 function obey(command) {
   switch (command.kind) {
     case 'open': {
-      const { task, formula, hoa, seed, preset, overrides } = command.request;
-      return replace(Session.open({ task, formula, hoa, preset, overrides, seed: BigInt(seed) }));
+      const { task, formula, hoa, map, seed, preset, overrides } = command.request;
+      return replace(Session.open({ task, formula, hoa, map, preset, overrides, seed: BigInt(seed) }));
     }
     case 'restore':
       return replace(Session.restore(command.bytes));
@@ -273,9 +283,26 @@ function obey(command) {
       return present().read_word(command.word);
     case 'judge_word':
       return judge_word(command.formula, command.word);
+    case 'check_map':
+      return check_map(command.json, command.image ?? undefined);
+    case 'map_of_picture':
+      return map_of_picture(command.name, command.width, command.height, command.pixels);
+    case 'present_map':
+      return present().map() ?? default_map();
+    case 'keep': {
+      const open = present();
+      const bytes = SAVERS[command.form](open);
+      return { generation: opened, steps: /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step'), bytes };
+    }
     case 'save':
       return SAVERS[command.form](present());
   }
+}
+
+/** What of an answer is handed over rather than copied. @param {Command} command @param {any} value @returns {Transferable[]} */
+function belongings(command, value) {
+  if (command.kind === 'save') return [value.buffer];
+  return command.kind === 'keep' ? [value.bytes.buffer] : [];
 }
 
 /** @param {unknown} error */
@@ -288,7 +315,7 @@ scope.addEventListener('message', async (event) => {
   const { id, command } = /** @type {{ id: number, command: Command }} */ (event.data);
   try {
     const value = await obey(command);
-    tell({ kind: 'done', id, value });
+    tell({ kind: 'done', id, value }, belongings(command, value));
     // Of another session the page first hears what it is, then how it stands.
     if (command.kind === 'open' || command.kind === 'restore') {
       sendFrame();
@@ -302,7 +329,7 @@ scope.addEventListener('message', async (event) => {
 });
 
 try {
-  await init();
+  ({ memory } = await init());
   tell({ kind: 'ready', tasks: builtin_tasks() });
 } catch (error) {
   fail(error);

@@ -239,7 +239,13 @@ export class Spec {
     if (!file) return;
     this.places.hoaPanel.open = true;
     if (file.size > MAX_FILE) return this.sayHoa(`${file.name} has ${Math.round(file.size / 1e6)} MB; at most ${MAX_FILE / 1e6} MB are read`, true);
-    this.places.hoa.value = await file.text();
+    await this.takeHoa(await file.text());
+  }
+
+  /** Puts an automaton file into its field and judges it. @param {string} text */
+  async takeHoa(text) {
+    this.places.hoaPanel.open = true;
+    this.places.hoa.value = text;
     await this.checkHoa();
   }
 }

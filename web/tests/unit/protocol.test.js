@@ -67,7 +67,7 @@ function stage() {
       puppets.push(puppet);
       return puppet;
     },
-    { frame: (r) => told.push(r), telemetry: (r) => told.push(r), evaluation: (r) => told.push(r), finished: (r) => told.push(r), broken: (m) => told.push(m) },
+    { frame: (r) => told.push(r), telemetry: (r) => told.push(r), evaluation: (r) => told.push(r), finished: (r) => told.push(r), halted: (r) => told.push(r), broken: (m) => told.push(m) },
   );
   return { client, puppets, told };
 }

@@ -11,7 +11,7 @@ test('the default state needs no hash, and an empty hash gives it', () => {
 test('every property comes back from the hash as it was written', () => {
   /** @type {import('../../src/state.js').State} */
   const state = {
-    task: 'cart_pole_c1', formula: 'G F green & G !unsafe | "a=b" & ✓', hoa: 'HOA: v1\nStates: 1\n--BODY--\n', preset: 'paper', seed: Number.MAX_SAFE_INTEGER,
+    task: 'cart_pole_c1', formula: 'G F green & G !unsafe | "a=b" & ✓', hoa: 'HOA: v1\nStates: 1\n--BODY--\n', map: 'kept.0123-_', preset: 'paper', seed: Number.MAX_SAFE_INTEGER,
     set: { 'algorithm.n_step': '5', 'reward.r_f': '0.9' }, watch: 'training', speed: 0.25, pace: 20, layers: ['labels', 'value'], hide: ['spec', 'curves'],
   };
   for (const key of Object.keys(PROPERTIES)) assert.notDeepEqual(Reflect.get(state, key), Reflect.get(initialState(), key), `${key} is tested with another value than its default`);
