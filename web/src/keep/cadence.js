@@ -2,7 +2,7 @@
 // When a run is kept: every so often while it trains, and never so often that keeping takes more than a fortieth of the time.
 
 /** The shortest and the longest time between two checkpoints of a run that goes on, in milliseconds. */
-export const SHORTEST = 10_000;
+export const SHORTEST = 5_000;
 export const LONGEST = 300_000;
 /** How many times as long as keeping takes there is none. */
 const SHARE = 40;

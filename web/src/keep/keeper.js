@@ -13,11 +13,11 @@ import { NoRoom } from './store.js';
 /** @typedef {import('./store.js').Store} Store */
 
 /** More samples than this are not kept: their checkpoint would be too large to be written while one waits. */
-const MAX_SAMPLES = 600_000;
+const MAX_SAMPLES = 400_000;
 /** The largest checkpoint that is kept, in bytes. */
-const MAX_SIZE = 96 << 20;
+const MAX_SIZE = 64 << 20;
 /** How long a run rests before it is kept, in milliseconds. */
-const REST = 1200;
+const REST = 300;
 
 /** @param {number} when @param {number} now */
 export function ago(when, now) {
