@@ -239,7 +239,7 @@ export class App {
     this.description = description;
     this.setTraining(false);
     this.controls.rate(0);
-    this.theatre.open(generation, description, this.state.formula || this.state.hoa ? null : this.state.task);
+    this.theatre.open(generation, description, this.state.formula || this.state.hoa || this.state.map ? null : this.state.task);
     this.spec.show(description);
     this.settings.show(description.settings, this.state.set);
     const changed = Object.keys(this.state.set).length > 0;

@@ -21,7 +21,7 @@ export class Refused extends Error {
  * @property {(reply: Extract<Reply, { kind: 'telemetry' }>) => void} telemetry
  * @property {(reply: Extract<Reply, { kind: 'evaluation' }>) => void} evaluation
  * @property {(reply: Extract<Reply, { kind: 'finished' }>) => void} finished
- * @property {(reply: Extract<Reply, { kind: 'halted' }>) => void} halted
+ * @property {(reply: Extract<Reply, { kind: 'halted' }>) => void} [halted]
  * @property {(message: string) => void} broken
  */
 
@@ -114,7 +114,7 @@ export class Client {
         this.listeners.finished(reply);
         break;
       case 'halted':
-        this.listeners.halted(reply);
+        this.listeners.halted?.(reply);
         break;
     }
   }

@@ -10,9 +10,9 @@ import { ago, megabytes } from './keeper.js';
 
 /** @param {Keeper} keeper @param {Store} store */
 export function wireKeptRuns(keeper, store) {
-  const panel = byId('kept', HTMLDetailsElement);
-  const list = byId('kept-runs', HTMLElement);
-  const note = byId('kept-note', HTMLElement);
+  const panel = byId('kept-here', HTMLDetailsElement);
+  const list = byId('kept-here-runs', HTMLElement);
+  const note = byId('kept-here-note', HTMLElement);
   const refresh = async () => {
     if (!panel.open) return;
     const [runs, maps, lasts] = await Promise.all([store.runs(), store.maps(), store.lasts()]);

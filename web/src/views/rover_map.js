@@ -2,6 +2,7 @@
 // Paints a rover on a map: the picture where there is one, regions and unsafe ground over it, the way so far.
 
 import { drawEarlier, drawRegions, drawTrail, projection } from './ground.js';
+import { pictureAddress } from '../maps/picture.js';
 import { drawValues } from './value_picture.js';
 
 /** @typedef {import('../protocol.js').Scene} Scene */
@@ -26,7 +27,7 @@ export class RoverMap {
     this.picture = null;
     if (scene.picture) {
       this.picture = new Image();
-      this.picture.src = /^(blob|data):/.test(scene.picture) ? scene.picture : `assets/${encodeURIComponent(scene.picture)}`;
+      this.picture.src = pictureAddress(scene.picture);
     }
   }
 
