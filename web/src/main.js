@@ -20,15 +20,23 @@ import { wireValues } from './values.js';
 if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
   byId('notices', HTMLElement).append(element('p', { className: 'notice problem' }, 'This browser has no WebAssembly or no workers; the page cannot compute anything here.'));
 } else {
-  const { state, problems } = readHash(location.hash);
-  const store = new Store();
-  const app = new App(state, new Shelf(store));
-  for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues]) wire(app);
-  wireFiles(app, wireMaps(app, store));
-  const keeper = new Keeper(app, store);
-  wireKeptRuns(keeper, store);
-  app.lastCheckpoint = () => keeper.last();
-  tellProblems(problems);
-  app.start().then(() => keeper.offer());
+  // Lessons are loaded when the address asks for something of theirs, or their menu is opened.
+  const lessons = location.search.length > 1 ? await import('./lessons/wire.js') : null;
+  if (lessons?.address.worksheet) {
+    await lessons.showWorksheet();
+  } else {
+    const { state, problems } = (lessons?.beginning ?? readHash)(location.hash);
+    const store = new Store();
+    const app = new App(state, new Shelf(store));
+    for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues]) wire(app);
+    wireFiles(app, wireMaps(app, store));
+    const keeper = new Keeper(app, store);
+    wireKeptRuns(keeper, store);
+    app.lastCheckpoint = () => keeper.last();
+    await lessons?.wireLessons(app);
+    byId('lessons-open', HTMLButtonElement).addEventListener('click', async () => (await import('./lessons/menu.js')).openMenu());
+    tellProblems(problems);
+    app.start().then(() => keeper.offer());
+  }
   if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js').catch(() => {});
 }

@@ -81,7 +81,12 @@ export class Theatre {
     this.shownRow = -1;
     this.lastPaint = 0;
     this.lastTimeline = 0;
+<<<<<<< HEAD
     this.moved = false;
+=======
+    /** Whether somebody else shows moments, such as the letters of a word. */
+    this.held = false;
+>>>>>>> 0acda05 (Lessons beside the instrument: ten of them, the break-it gallery, worksheets, a teacher's link; what they say is held against the core)
   }
 
   /** Begins anew with the episodes. */
@@ -188,7 +193,7 @@ export class Theatre {
   paint(now) {
     const seconds = Math.min((now - this.lastPaint) / 1000, 0.25);
     this.lastPaint = now;
-    if (!this.description) return;
+    if (!this.description || this.held) return;
     if (this.playing) this.paintEpisode(now, seconds);
     else if (this.mode === 'drive') this.driveOn(seconds);
     else if (this.liveIsNew && this.live) this.paintLive(now, this.live);
