@@ -36,7 +36,7 @@ if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
     await lessons?.wireLessons(app);
     byId('lessons-open', HTMLButtonElement).addEventListener('click', async () => (await import('./lessons/menu.js')).openMenu());
     tellProblems(problems);
-    app.start().then(() => keeper.offer());
+    app.start().then(() => (lessons?.inLesson ? undefined : keeper.offer()));
   }
   if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js').catch(() => {});
 }

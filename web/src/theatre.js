@@ -81,12 +81,9 @@ export class Theatre {
     this.shownRow = -1;
     this.lastPaint = 0;
     this.lastTimeline = 0;
-<<<<<<< HEAD
     this.moved = false;
-=======
     /** Whether somebody else shows moments, such as the letters of a word. */
     this.held = false;
->>>>>>> 0acda05 (Lessons beside the instrument: ten of them, the break-it gallery, worksheets, a teacher's link; what they say is held against the core)
   }
 
   /** Begins anew with the episodes. */

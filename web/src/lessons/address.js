@@ -18,16 +18,16 @@ import { LESSONS } from './content/index.js';
 
 /** What can be hidden: the name in the address, and where it is in the page. @type {Readonly<Record<string, string>>} */
 export const PARTS = Object.freeze({
-  spec: '#spec-panel', hoa: '#hoa-panel', stage: '#stage-panel', watch: '#watch', transport: '.transport', timeline: '#timeline', automaton: '#automaton-panel',
-  frontier: '.chips-row', reward: '.reward', training: '#training-panel', curves: '#curves', seed: '.seed, #new-seed', details: '#details-panel',
-  evaluation: '#details-panel > :has(#evaluation)', modules: '#details-panel > :has(#modules)', settings: '#details-panel > :has(#settings)',
-  files: '#details-panel > :has(#save)', share: '#share', help: '#help-open', lessons: '#lessons-open',
+  spec: '#spec-panel', hoa: '#hoa-panel', stage: '#stage-panel', watch: '#watch', layers: '#layers', map: '#paint-map', transport: '.transport', timeline: '#timeline',
+  kept: '#kept-panel', automaton: '#automaton-panel', frontier: '.chips-row', reward: '.reward', training: '#training-panel', curves: '#curves', seed: '.seed, #new-seed',
+  compare: '#compare-panel', details: '#details-panel', evaluation: '#details-panel > :has(#evaluation)', modules: '#details-panel > :has(#modules)',
+  settings: '#details-panel > :has(#settings)', files: '#details-panel > :has(#save)', share: '#share', help: '#help-open', lessons: '#lessons-open',
 });
 
 /** What can be locked: the name in the address, and the controls behind it. @type {Readonly<Record<string, string>>} */
 export const LOCKS = Object.freeze({
   task: '#task', formula: '#formula, #formula-apply', hoa: '#hoa, #hoa-apply, #hoa-own, #hoa-file', preset: '#preset', seed: '#seed, #new-seed',
-  settings: '#settings input, #settings select, #settings-own', files: '#load',
+  settings: '#settings input, #settings select, #settings-own', map: '#paint-map', files: '#load',
 });
 
 /** @type {Address} */

@@ -81,7 +81,7 @@ function card(each, instrument) {
  * @param {Instrument} instrument
  */
 export function showGallery(root, instrument) {
-  instrument.hide = ['spec', 'details'];
+  instrument.hide = ['spec', 'compare', 'details'];
   root.append(
     element('header', { className: 'lesson-head' },
       element('p', { className: 'soft' }, 'Gallery'),

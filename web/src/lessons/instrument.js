@@ -36,11 +36,13 @@ export class Instrument {
     this.hide = [];
     /** Each run has a number; a later one supersedes it. */
     this.turn = 0;
-    this.fresh = false;
     this.finished = false;
-    app.signals.on('opened', () => (this.fresh = true));
-    app.signals.on('training', (training) => (this.fresh &&= !training));
     app.signals.on('finished', () => (this.finished = true));
+  }
+
+  /** Whether the open session has not been trained. */
+  get fresh() {
+    return (this.app.theatre.live?.counter('step') ?? 0) === 0;
   }
 
   /** Ends what is going on. */
@@ -138,7 +140,7 @@ export class Instrument {
       this.keep(turn);
       if (app.generation !== generation) throw new Superseded('another task was opened');
       made = app.theatre.live?.counter('step') ?? 0;
-      progress(Math.min(made, steps), steps, `training, ${made.toLocaleString('en')} of at most ${steps.toLocaleString('en')} steps`);
+      progress(Math.min(made, steps), steps, `${app.training ? 'training' : 'paused'}, ${made.toLocaleString('en')} of at most ${steps.toLocaleString('en')} steps`);
     }
     if (app.training) app.toggleTraining();
     const perfect = this.finished ? made : null;

@@ -65,7 +65,7 @@
  */
 
 /** What no lesson needs to look at. */
-export const PLAIN = Object.freeze(['spec', 'training', 'details']);
+export const PLAIN = Object.freeze(['spec', 'training', 'compare', 'details']);
 
 /** @param {Question | Trial} step @returns {step is Question} */
 export const isQuestion = (step) => 'ask' in step;

@@ -20,6 +20,9 @@ import { WordBench } from './word_bench.js';
 /** What the address asks for. */
 export const { address, problems } = readAddress(location.search);
 
+/** Whether a lesson or the gallery stands beside the instrument. */
+export const inLesson = address.lesson !== '' || address.gallery !== '';
+
 /** The state that the app begins in: a lesson's own, or that of the link with the teacher's seed. @param {string} hash */
 export function beginning(hash) {
   const found = readHash(hash);
@@ -30,7 +33,7 @@ export function beginning(hash) {
     const state = instrumentState(isQuestion(first) ? first.experiment.state : first.state, chosen.hide, seed);
     return { state: { ...state, watch: /** @type {const} */ ('policy') }, problems };
   }
-  if (gallery) return { state: instrumentState({ task: 'ball_pass_b1', preset: 'fast', speed: 4 }, ['spec', 'details'], seed), problems };
+  if (gallery) return { state: instrumentState({ task: 'ball_pass_b1', preset: 'fast', speed: 4 }, ['spec', 'compare', 'details'], seed), problems };
   return { state: seed === null ? found.state : { ...found.state, seed }, problems: [...found.problems, ...problems] };
 }
 
@@ -59,6 +62,10 @@ export async function wireLessons(app) {
   const instrument = new Instrument(app, { word, places }, address.seed);
   const root = element('aside', { className: 'card lesson', id: 'lesson-panel', 'aria-labelledby': 'lesson-title' });
   const main = /** @type {HTMLElement} */ (document.querySelector('main'));
+  // Space and letters choose an answer here; elsewhere they are the page's keys.
+  root.addEventListener('keydown', (event) => {
+    if (event.target instanceof HTMLInputElement) event.stopPropagation();
+  });
   main.classList.add('with-lesson');
   main.prepend(root);
   /** @type {LessonPanel | null} */

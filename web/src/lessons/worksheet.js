@@ -4,7 +4,7 @@
 import { Client } from '../client.js';
 import { element } from '../dom.js';
 import { stateName } from '../palette.js';
-import { loadViz } from '../vendor.js';
+import { draw } from '../vendor.js';
 import { Automaton } from '../views/automaton.js';
 import { LESSONS, lesson as named } from './content/index.js';
 import { automatonOutcome, instrumentState, wordOutcome } from './experiments.js';
@@ -45,7 +45,7 @@ function wordTable(word, names, states) {
 async function answer(ask, { experiment, bears, key }) {
   const { task, formula, hoa, seed, preset, set } = instrumentState(experiment.state, [], null);
   /** @type {{ description: Description }} */
-  const { description } = await ask({ kind: 'open', request: { task, formula: formula || null, hoa: hoa || null, seed, preset: preset || null, overrides: set } });
+  const { description } = await ask({ kind: 'open', request: { task, formula: formula || null, hoa: hoa || null, map: null, seed, preset: preset || null, overrides: set } });
   switch (experiment.kind) {
     case 'word': {
       const { word, formulas = [] } = experiment;
@@ -85,7 +85,7 @@ function given({ experiment }, description) {
 async function drawing(description) {
   const root = element('div', { className: 'graph' });
   document.body.append(root);
-  const automaton = new Automaton(root, element('span', {}), loadViz);
+  const automaton = new Automaton(root, element('span', {}), draw);
   await automaton.show(description.automaton);
   root.remove();
   return element('figure', { className: 'paper-graph' }, root, element('figcaption', {}, 'Automaton of ', element('code', {}, description.formula.text)));

@@ -9,7 +9,7 @@ export const discounts = {
   title: 'The discounts r_F and γ_F',
   aim: 'Foresee what a learner does when γ_F is too small.',
   minutes: 7,
-  hide: ['spec', 'details'],
+  hide: ['spec', 'compare', 'details'],
   words: [
     'A visit of an accepting set in T pays 1 − r_F and discounts all that follows by r_F. Every other step pays nothing and discounts by γ_F. So the return is at most 1, however long the run: (1 − r_F)(1 + r_F + r_F² + …) = 1.',
     'A reward k steps away is worth γ_Fᵏ of itself. As γ_F and r_F go to 1 (γ_F faster), the value of a policy becomes the probability that it satisfies the task; the paper takes r_F = 0.99, γ_F = 0.9999. The fast preset has 0.9 and 0.99.',

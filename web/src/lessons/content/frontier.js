@@ -7,7 +7,7 @@ export const frontier = {
   title: 'Why a policy needs the frontier',
   aim: 'Explain why no deterministic policy on the standard product satisfies GF r1 & GF r2, and what the frontier adds.',
   minutes: 10,
-  hide: ['spec', 'details'],
+  hide: ['spec', 'compare', 'details'],
   words: [
     'A deterministic policy takes one action in each state it can tell apart. The *standard product* lets it see the place s and the automaton state q. The *embedded product* (EP-MDP) shows it the *frontier* T as well: the accepting sets still to be visited in this round.',
     'The argument needs only three places: free ground, region 1, region 2. From free ground one action leads to either region; from a region one goes back. The automaton is in q0 on free ground, in q1 in region 1, in q2 in region 2.',

@@ -31,7 +31,7 @@ export const sets = {
   title: 'Accepting sets against one set',
   aim: 'Say where the memory of a round lives: in the frontier, or in the states.',
   minutes: 7,
-  hide: ['spec', 'details'],
+  hide: ['spec', 'compare', 'details'],
   words: [
     'A *generalised* Büchi automaton has several accepting sets; each must be visited again and again, in whatever order. An ordinary Büchi automaton has one. Any task can be written either way.',
     'With several sets the automaton stays small and the frontier T keeps the round. With one set the states themselves count: region 1 is next, region 2 is next, round closed.',

@@ -12,7 +12,7 @@ export const shaping = {
   title: 'Shaping on and off',
   aim: 'Work out the reward of a step with shaping, and say what shaping cannot do.',
   minutes: 8,
-  hide: ['spec', 'details'],
+  hide: ['spec', 'compare', 'details'],
   words: [
     'For `F (r1 & F r2)` the reward comes when the whole task is done, and not before. *Shaping* adds a potential: Φ is 1 − r_F while the automaton is in a state not yet visited in this round (those in T_Φ), else 0. A step from x to x′ then pays R(x′) + γ(x′)·Φ(x′) − Φ(x).',
     'Here r_F = 0.9 and γ_F = 0.99. The box “Reward of this step” below the automaton shows the three terms.',
