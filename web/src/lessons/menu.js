@@ -5,6 +5,7 @@ import { element } from '../dom.js';
 import { LESSONS } from './content/index.js';
 import { isQuestion } from './model.js';
 import { answered, readProgress } from './progress.js';
+import { prose } from './prose.js';
 import { withStyle } from './style.js';
 
 /** Opens the menu. */
@@ -16,7 +17,7 @@ export async function openMenu() {
   const entry = (/** @type {import('./model.js').Lesson} */ lesson) => {
     const questions = lesson.steps.filter(isQuestion).length;
     const done = answered(progress, lesson);
-    return element('li', {}, element('a', { href: `?lesson=${lesson.name}` }, element('b', {}, lesson.title), element('span', {}, lesson.aim)),
+    return element('li', {}, element('a', { href: `?lesson=${lesson.name}` }, element('b', {}, ...prose(lesson.title)), element('span', {}, ...prose(lesson.aim))),
       element('span', { className: 'soft number' }, done === 0 ? `${lesson.minutes} min` : done === questions ? '✓ done' : `${done} of ${questions}`));
   };
   const dialog = element('dialog', { id: 'lessons', 'aria-labelledby': 'lessons-title' },

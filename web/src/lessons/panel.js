@@ -37,7 +37,7 @@ export class LessonPanel {
     this.current = 0;
     const [before, after] = [LESSONS[place - 1], LESSONS[place + 1]];
     const way = (/** @type {Lesson | undefined} */ to, /** @type {string} */ label, /** @type {string} */ rel) =>
-      to ? element('a', { href: lessonAddress(to.name), rel, className: 'way' }, element('span', { className: 'soft' }, label), to.title) : element('span', {});
+      to ? element('a', { href: lessonAddress(to.name), rel, className: 'way' }, element('span', { className: 'soft' }, label), element('span', {}, ...prose(to.title))) : element('span', {});
     const clear = element('button', { type: 'button', className: 'quiet' }, 'Forget my answers');
     clear.addEventListener('click', () => {
       forgetAnswers(lesson.name);
@@ -46,8 +46,8 @@ export class LessonPanel {
     root.append(
       element('header', { className: 'lesson-head' },
         element('p', { className: 'soft' }, `Lesson ${place + 1} of ${LESSONS.length} · ${lesson.minutes} minutes`),
-        element('h2', { id: 'lesson-title', tabIndex: -1 }, lesson.title),
-        element('p', { className: 'aim' }, lesson.aim)),
+        element('h2', { id: 'lesson-title', tabIndex: -1 }, ...prose(lesson.title)),
+        element('p', { className: 'aim' }, ...prose(lesson.aim))),
       element('div', { className: 'lesson-words' }, ...lesson.words.map((text) => element('p', {}, ...prose(text)))),
       element('nav', { 'aria-label': 'Steps of this lesson' }, this.place),
       this.box,

@@ -43,8 +43,8 @@ export const showWorksheet = async () => (await import('./worksheet.js')).showWo
 /** @param {App} app */
 export async function wireLessons(app) {
   const chosen = address.gallery ? undefined : named(address.lesson);
+  if (address.hide.length > 0 || chosen || address.gallery) await withStyle();
   if (!chosen && !address.gallery) return wireTeacher(app, address);
-  await withStyle();
   const bench = /** @type {HTMLElement} */ (document.querySelector('.bench'));
   const place = (/** @type {string} */ name) => {
     const card = element('section', { className: `card ${name}`, id: `${name}-panel`, 'aria-labelledby': `${name}-title`, hidden: true });

@@ -113,8 +113,8 @@ async function sheet(lesson, ask, withKey) {
       element('p', { className: 'note' }, 'What happened, and why?'), line(), line()));
   }
   const page = element('article', { className: 'sheet' },
-    element('header', { className: 'sheet-head' }, element('h1', {}, lesson.title), element('p', { className: 'name-line' }, 'Name: ______________________  Date: ____________')),
-    element('p', { className: 'aim' }, lesson.aim), ...lesson.words.map((text) => element('p', {}, ...prose(text))), element('ol', { className: 'questions' }, ...items),
+    element('header', { className: 'sheet-head' }, element('h1', {}, ...prose(lesson.title)), element('p', { className: 'name-line' }, 'Name: ______________________  Date: ____________')),
+    element('p', { className: 'aim' }, ...prose(lesson.aim)), ...lesson.words.map((text) => element('p', {}, ...prose(text))), element('ol', { className: 'questions' }, ...items),
     element('p', { className: 'note where' }, `On the screen: ${new URL(`?lesson=${lesson.name}`, location.href).href}`));
   if (!withKey) return [page];
   const keys = lesson.steps.flatMap((step, k) => {
@@ -125,7 +125,7 @@ async function sheet(lesson, ask, withKey) {
       ...(step.experiment.kind === 'train' ? [element('p', { className: 'note' }, `${measuredSentence(`${lesson.name}/${k + 1}`)} A run in class may differ.`)] : []),
       element('p', {}, ...prose(step.why)))];
   });
-  return [page, element('article', { className: 'sheet key' }, element('header', { className: 'sheet-head' }, element('h1', {}, `Key: ${lesson.title}`)), element('ol', { className: 'questions' }, ...keys))];
+  return [page, element('article', { className: 'sheet key' }, element('header', { className: 'sheet-head' }, element('h1', {}, 'Key: ', ...prose(lesson.title))), element('ol', { className: 'questions' }, ...keys))];
 }
 
 /** Shows worksheets in place of the page. @param {{ worksheet: string, key: boolean }} address */

@@ -5,7 +5,7 @@
 export const frontier = {
   name: 'frontier',
   title: 'Why a policy needs the frontier',
-  aim: 'Explain why no deterministic policy on the standard product satisfies GF r1 & GF r2, and what the frontier adds.',
+  aim: 'Explain why no deterministic policy on the standard product satisfies `G F r1 & G F r2`, and what the frontier adds.',
   minutes: 10,
   hide: ['spec', 'compare', 'details'],
   words: [
