@@ -48,6 +48,14 @@ pub mod Ba2016 {}
 pub mod Ball2023 {}
 /// W. Dabney, G. Ostrovski, A. Barreto: *Temporally-Extended ε-Greedy Exploration*, ICLR 2021.
 pub mod Dabney2021 {}
+/// M. Tancik, P. P. Srinivasan, B. Mildenhall, S. Fridovich-Keil, N. Raghavan, U. Singhal, R. Ramamoorthi, J. T. Barron, R. Ng:
+/// *Fourier Features Let Networks Learn High Frequency Functions in Low Dimensional Domains*, NeurIPS 2020.
+pub mod Tancik2020 {}
+/// G. Yang, A. Ajay, P. Agrawal: *Overcoming the Spectral Bias of Neural Value Approximation*, ICLR 2022.
+pub mod Yang2022 {}
+/// A. Barreto, W. Dabney, R. Munos, J. J. Hunt, T. Schaul, H. van Hasselt, D. Silver: *Successor Features for Transfer in
+/// Reinforcement Learning*, NeurIPS 2017 (generalised policy improvement).
+pub mod Barreto2017 {}
 /// R. S. Sutton, A. G. Barto: *Reinforcement Learning: An Introduction*, second edition, MIT Press, 2018.
 pub mod SuttonBarto2018 {}
 /// S. Haddad, B. Monmege: *Interval Iteration Algorithm for MDPs and IMDPs*, Theoretical Computer Science 735, 2018.

@@ -64,6 +64,7 @@ const VARIANTS: &[(&str, &[&str])] = &[
     ("cart_pole_c2", &["learner.policy_delay=2", "learner.critics=twin", "learner.target_smoothing={ sigma = 0.2, clip = 0.5 }"]),
     ("ball_pass_b1", &["learner.modules=one", "product.shaping={ kind = \"paper\", weight = 1.0 }"]),
     ("ball_pass_b1", &["learner.modules=per_embedded", "learner.counterfactual.samples=3", "training.embedded_start=random"]),
+    ("ball_pass_b1", &["learner.modules=per_set", "learner.fourier_octaves=3", "learner.updated_module=random"]),
     ("cart_pole_c1", &["product.frontier=standard", "learner.updated_module=random", "learner.update_every=3"]),
 ];
 

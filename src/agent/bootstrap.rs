@@ -1,4 +1,5 @@
-//! The critic's targets y = R + Γ·max(V'(x'), max over ε-moves of their look-ahead), computed in a few dense calls.
+//! The critic's targets y = R + Γ·max(V'(x'), max over ε-moves of their look-ahead), computed in a few dense calls. Where several
+//! modules compete for x', V'(x') is the greatest of their values.
 
 use super::module::Module;
 use super::module_map::{Encoder, Modules};
@@ -100,17 +101,20 @@ impl Bootstrap {
                 continue;
             }
             let to = sample.next_at;
-            let module = world.modules.of(to).expect("only sinks have no module, and into a sink the discount is 0");
-            self.queries.push(Query { module, row, reward: 0.0, discount: 1.0, place, to });
+            // Only sinks have no module, and into a sink the discount is 0.
+            for (module, to) in world.modules.candidates(to) {
+                self.queries.push(Query { module, row, reward: 0.0, discount: 1.0, place, to });
+            }
             for &target in automaton.epsilon(to.q) {
                 let step = ProductStep::jump(world.embedding, to, target, Labels::EMPTY);
                 let payoff = world.reward.payoff(&step);
                 let (reward, discount) = (world.scale * payoff.reward, payoff.discount);
-                match world.modules.of(step.to) {
-                    Some(module) if discount > 0.0 => {
-                        self.queries.push(Query { module, row, reward, discount, place, to: step.to });
-                    }
-                    _ => self.best[row] = self.best[row].max(reward),
+                if discount == 0.0 {
+                    self.best[row] = self.best[row].max(reward);
+                    continue;
+                }
+                for (module, to) in world.modules.candidates(step.to) {
+                    self.queries.push(Query { module, row, reward, discount, place, to });
                 }
             }
         }

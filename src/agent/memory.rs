@@ -201,7 +201,8 @@ impl ModularDdpg {
         }
         let fits = |k| {
             let sample = replay.get(k);
-            self.index.of(sample.at) == Some(m) && (sample.discount == 0.0 || self.index.of(sample.next_at).is_some())
+            self.index.of(sample.at) == Some(m)
+                && (sample.discount == 0.0 || self.index.candidates(sample.next_at).next().is_some())
         };
         if (0..replay.len()).all(fits) { Ok(()) } else { Err("a replay holds samples of another module".to_owned()) }
     }

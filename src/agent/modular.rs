@@ -50,8 +50,10 @@ pub struct ModularDdpg {
     sizes: Sizes,
     /// Controls recorded.
     pub(super) steps: u64,
-    /// The module of q_t, until the updates of that step are done.
+    /// The module that was in charge of x_t, until the updates of that step are done.
     pub(super) current: Option<usize>,
+    /// The module that the last look at a situation put in charge.
+    chosen: Option<usize>,
     /// Embedded states from which counterfactual samples read their first letter; empty if they are too many to list.
     listed: Vec<EmbeddedState>,
     batch: Bootstrap,
@@ -75,7 +77,8 @@ impl ModularDdpg {
     ) -> Result<ModularDdpg, ModulesError> {
         let (engine, seed) = start;
         let index = Modules::new(settings.modules, &embedding)?;
-        let encoder = Encoder::new(settings.modules, &embedding, sizes.observation);
+        let encoder =
+            Encoder::new(settings.modules, &embedding, sizes.observation).with_fourier_features(settings.fourier_octaves);
         let shape = NetworkShape {
             critics: settings.critics,
             layer_norm: settings.layer_norm,
@@ -104,6 +107,7 @@ impl ModularDdpg {
             sizes,
             steps: 0,
             current: None,
+            chosen: None,
             batch: Bootstrap::default(),
             input: vec![],
             listed,
@@ -164,12 +168,33 @@ impl ModularDdpg {
 
     /// Q(x, π(x)) of the module in charge, in units of unscaled rewards; `None` in a sink.
     pub fn value(&mut self, observation: &[f32], at: EmbeddedState) -> Option<f32> {
-        let module = self.index.of(at)?;
-        self.input.clear();
-        self.encoder.push(observation, at, &mut self.input);
-        let mut value = [0.0];
-        self.modules[module].networks.values(&self.input, &mut value);
-        Some(value[0] / self.settings.reward_scale)
+        self.best(observation, at).map(|(_, value)| value)
+    }
+
+    /// The module in charge of x = (`observation`, `at`): of several that compete, the one whose Q(x, π(x)) is greatest, and of equal
+    /// ones the first. `None` in a sink.
+    pub fn in_charge(&mut self, observation: &[f32], at: EmbeddedState) -> Option<usize> {
+        self.index.of(at).or_else(|| self.best(observation, at).map(|(module, _)| module))
+    }
+
+    /// The module that chose last; `None` before the first choice.
+    pub fn acting(&self) -> Option<usize> {
+        self.chosen
+    }
+
+    /// The module in charge, and what it promises in units of unscaled rewards.
+    fn best(&mut self, observation: &[f32], at: EmbeddedState) -> Option<(usize, f32)> {
+        let mut best: Option<(usize, f32)> = None;
+        for (module, at) in self.index.candidates(at) {
+            self.input.clear();
+            self.encoder.push(observation, at, &mut self.input);
+            let mut value = [0.0];
+            self.modules[module].networks.values(&self.input, &mut value);
+            if best.is_none_or(|(_, most)| value[0] > most) {
+                best = Some((module, value[0]));
+            }
+        }
+        best.map(|(module, value)| (module, value / self.settings.reward_scale))
     }
 
     /// The rates of the optimisers at this step of their schedules.
@@ -197,9 +222,12 @@ impl ModularDdpg {
         self.trace.pop();
     }
 
-    /// Stores the oldest waiting transition as if it had begun in `at`. A sink, where nothing is learned, is passed over.
+    /// Stores the oldest waiting transition as if it had begun in `at`. A sink, where nothing is learned, is passed over; of several
+    /// modules that compete for `at`, one drawn uniformly learns from it.
     fn store(&mut self, at: EmbeddedState) {
-        if let Some(module) = self.index.of(at) {
+        let count = self.index.candidates(at).count();
+        let pick = if count > 1 { self.replay_rng.below(count) } else { 0 };
+        if let Some((module, at)) = self.index.candidates(at).nth(pick) {
             let sample = self.trace.sample(at, &self.embedding, self.reward.as_ref(), self.settings.reward_scale);
             self.modules[module].replay.push(&sample);
         }
@@ -273,7 +301,8 @@ impl Policy for ModularDdpg {
     fn act(&mut self, now: &Situation<'_>, control: &mut [f32]) -> Chosen {
         let mut best = f32::NEG_INFINITY;
         control.fill(0.0);
-        if let Some(module) = self.index.of(now.at) {
+        self.chosen = self.in_charge(now.observation, now.at);
+        if let Some(module) = self.chosen {
             self.input.clear();
             self.encoder.push(now.observation, now.at, &mut self.input);
             self.modules[module].networks.act(&self.input, control);
@@ -318,7 +347,7 @@ impl Learner for ModularDdpg {
         }
         if self.steps < exploration.warm_up {
             control.fill_with(|| self.noise_rng.uniform_in(-1.0, 1.0));
-        } else if let Some(module) = self.index.of(now.at) {
+        } else if let Some(module) = self.chosen {
             self.modules[module].noise.disturb(control, self.steps, &mut self.noise_rng);
         }
         Chosen::Control
@@ -330,7 +359,7 @@ impl Learner for ModularDdpg {
             return;
         }
         self.steps += 1;
-        self.current = self.index.of(transition.step.from);
+        self.current = self.index.of(transition.step.from).or(self.chosen);
         self.trace.push(transition);
         if transition.step.ends() {
             self.drain();

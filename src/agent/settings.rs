@@ -15,6 +15,9 @@ pub enum ModuleMap {
     PerState,
     /// One module per pair (q, T) that can be reached.
     PerEmbedded,
+    /// One module per accepting set F_j, which learns to visit F_j next and sees q one-hot; of the modules of T the one that promises
+    /// the most is in charge ([`Modules`](super::Modules) tells why that is sound).
+    PerSet,
     /// One module for all, which sees q one-hot as well: standard DDPG, the paper's baseline.
     One,
 }
@@ -65,6 +68,9 @@ pub struct LearnerSettings {
     pub critics: Critics,
     /// Which networks normalise their hidden layers.
     pub layer_norm: LayerNorm,
+    /// Octaves of Fourier features that stand behind the observation in a network's input
+    /// ([`Encoder::with_fourier_features`](super::Encoder::with_fourier_features)); 0 for none.
+    pub fourier_octaves: u32,
     /// Learning rate of the actors.
     pub actor_rate: Schedule,
     /// Learning rate of the critics.
@@ -104,6 +110,7 @@ impl Default for LearnerSettings {
             hidden: vec![64, 64],
             critics: Critics::One,
             layer_norm: LayerNorm::None,
+            fourier_octaves: 0,
             actor_rate: Schedule::Constant(1e-4),
             critic_rate: Schedule::Constant(1e-3),
             tau: 1e-3,

@@ -177,7 +177,8 @@ impl Session {
             self.losses.clear();
         }
         self.total += f64::from(tick.reward.base);
-        if let Some(module) = self.run.trainer().learner().modules().of(tick.product.from) {
+        let learner = self.run.trainer().learner();
+        if let Some(module) = learner.modules().of(tick.product.from).or(learner.acting()) {
             self.activity[module].visits += 1;
         }
         if let Some(update) = tick.update {
@@ -241,7 +242,7 @@ impl Session {
             }
         };
         writer.total(self.total);
-        let module = trainer.learner().modules().of(trainer.product().at());
+        let module = trainer.learner().modules().of(trainer.product().at()).or(trainer.learner().acting());
         writer.product(trainer.product(), module, steps, trainer.control());
         writer.frame().to_vec()
     }
@@ -276,7 +277,7 @@ impl Session {
         let mut data = vec![];
         writer.counters(counters);
         writer.start(rollout.start(), &self.edges, initial);
-        let in_charge = |learner: &crate::agent::ModularDdpg, at: EmbeddedState| learner.modules().of(at);
+        let in_charge = |learner: &crate::agent::ModularDdpg, at: EmbeddedState| learner.modules().of(at).or(learner.acting());
         writer.product(rollout.product(), in_charge(learner, rollout.product().at()), 0, rollout.control());
         data.extend_from_slice(writer.frame());
         while let Some(step) = rollout.step(learner) {

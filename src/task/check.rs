@@ -30,12 +30,13 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
     let smoothing = [l.target_smoothing.sigma, l.target_smoothing.clip];
     let shown = |value: &dyn std::fmt::Debug| format!("{value:?}");
     let open = |v: f64| v > 0.0 && v < 1.0;
-    let rows: [(bool, &'static [&'static str], String, &str); 25] = [
+    let rows: [(bool, &'static [&'static str], String, &str); 26] = [
         (open(p.accepting_discount), &["product", "accepting_discount"], shown(&p.accepting_discount), "between 0 and 1"),
         (p.discount > 0.0 && p.discount <= 1.0, &["product", "discount"], shown(&p.discount), "above 0 and at most 1"),
         (p.sink_reward.abs() <= 1e6, &["product", "sink_reward"], shown(&p.sink_reward), "within ±1000000"),
         ((0.0..=1e6).contains(&p.shaping.weight()), &["product", "shaping"], shown(&p.shaping.weight()), "a weight ≥ 0"),
         (hidden, &["learner", "hidden"], shown(&l.hidden), "1 to 8 layers of 1 to 1024"),
+        (l.fourier_octaves <= 12, &["learner", "fourier_octaves"], shown(&l.fourier_octaves), "0 to 12"),
         (rate(&l.actor_rate), &["learner", "actor_rate"], shown(&l.actor_rate), "0 to 1"),
         (rate(&l.critic_rate), &["learner", "critic_rate"], shown(&l.critic_rate), "0 to 1"),
         (l.tau > 0.0 && l.tau <= 1.0, &["learner", "tau"], shown(&l.tau), "above 0 and at most 1"),

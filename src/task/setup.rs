@@ -121,7 +121,8 @@ impl Setup {
         let learner = &self.preset.learner;
         let modules = crate::agent::Modules::new(learner.modules, self.product.embedding()).map_err(|e| error(e.to_string()))?;
         let sizes = self.sizes();
-        let input = crate::agent::Encoder::new(learner.modules, self.product.embedding(), sizes.observation).len();
+        let encoder = crate::agent::Encoder::new(learner.modules, self.product.embedding(), sizes.observation);
+        let input = encoder.with_fourier_features(learner.fourier_octaves).len();
         let shape = NetworkShape::new(input, sizes.control, &learner.hidden);
         let one: usize = crate::nn::tensor_shapes(&shape, true).iter().map(|(_, s)| s.iter().product::<usize>()).sum();
         if one.saturating_mul(modules.len()) > MAX_PARAMETERS {
