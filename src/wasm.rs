@@ -141,16 +141,24 @@ pub fn check_hoa(text: &str) -> JsHoaVerdict {
     verdict(session::check_hoa(text))
 }
 
-/// The verdict on a map file; `image` is the PNG whose colours are labels, if the file says so.
+/// The verdict on a map file without a picture.
 #[wasm_bindgen]
-pub fn check_map(json: &str, image: Option<Vec<u8>>) -> JsMapVerdict {
-    map_verdict(session::check_map(json, image.as_deref()))
+pub fn check_map(json: &str) -> JsMapVerdict {
+    map_verdict(session::check_map(json, None))
 }
 
-/// The verdict on a picture with flat colours as a map: red, green, blue and opacity of its pixels, row by row.
+/// The verdict on a map file whose labels are the colours of a picture: red, green, blue and opacity of its pixels, row by row.
+#[wasm_bindgen]
+pub fn check_map_and_picture(json: &str, width: u32, height: u32, pixels: &[u8]) -> JsMapVerdict {
+    let picture = session::picture(width as usize, height as usize, pixels);
+    map_verdict(picture.and_then(|picture| session::check_map(json, Some(&picture))))
+}
+
+/// The verdict on a picture with flat colours as a map.
 #[wasm_bindgen]
 pub fn map_of_picture(name: &str, width: u32, height: u32, pixels: &[u8]) -> JsMapVerdict {
-    map_verdict(session::map_of_picture(name, width as usize, height as usize, pixels))
+    let picture = session::picture(width as usize, height as usize, pixels);
+    map_verdict(picture.and_then(|picture| session::map_of_picture(name, &picture)))
 }
 
 /// The map file that a map of one's own begins with.

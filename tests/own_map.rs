@@ -2,7 +2,7 @@
 
 use ltl_rover::agent::Replays;
 use ltl_rover::env::map::MAX_TEXT;
-use ltl_rover::session::{OpenRequest, Session, Subject, check_map, map_of_picture};
+use ltl_rover::session::{MapFacts, OpenRequest, Refusal, Session, Subject, check_map, map_of_picture, picture};
 use proptest::prelude::*;
 
 /// A map of 20 × 10 cells: `left` on its left edge, `right` on its right, `unsafe` in a corner.
@@ -23,7 +23,11 @@ fn request(map: &str) -> OpenRequest {
     OpenRequest { task: "own_map".into(), map: Some(map.into()), seed: 4, overrides, ..OpenRequest::default() }
 }
 
-fn refused(request: &OpenRequest) -> ltl_rover::session::Refusal {
+fn of_picture(width: usize, height: usize, pixels: &[u8]) -> Result<MapFacts, Refusal> {
+    map_of_picture("field", &picture(width, height, pixels)?)
+}
+
+fn refused(request: &OpenRequest) -> Refusal {
     Session::open(request).err().expect("this is refused")
 }
 
@@ -47,10 +51,10 @@ fn a_flat_picture_becomes_labels_and_any_other_is_refused() {
         _ => [255; 4],
     };
     let pixels: Vec<u8> = (0..32).flat_map(pixel).collect();
-    let facts = map_of_picture("field", 8, 4, &pixels).unwrap();
+    let facts = of_picture(8, 4, &pixels).unwrap();
     assert_eq!((facts.cells, facts.suggested.as_str()), ([8, 4], "G F green & G !unsafe"));
     assert!(Session::open(&request(&facts.json)).is_ok());
-    let refusal = |width, height, pixels: &[u8]| map_of_picture("field", width, height, pixels).unwrap_err();
+    let refusal = |width, height, pixels: &[u8]| of_picture(width, height, pixels).unwrap_err();
     assert!(refusal(8, 5, &pixels).message.contains("pixels"), "fewer pixels than its size says");
     assert!(refusal(1 << 20, 1, &pixels).message.contains("4096"));
     assert_eq!(refusal(0, 0, &[]).subject, Subject::Map);
@@ -123,6 +127,8 @@ fn a_checkpoint_knows_its_map_its_counts_and_how_it_was_opened() {
     let bytes = Session::open(&shipped).unwrap().save(Replays::Leave);
     let preset = Some("fast".to_owned());
     assert_eq!(Session::restore(&bytes).unwrap().describe().request, OpenRequest { preset, ..shipped });
+    let again = Session::restore(&bytes).unwrap().save(Replays::Leave);
+    assert!(again == bytes, "what was opened again is kept as the same bytes");
 }
 
 proptest! {
@@ -145,8 +151,9 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_panic(text in ".{0,200}", image in prop::option::of(prop::collection::vec(any::<u8>(), 0..200))) {
-        let _ = check_map(&text, image.as_deref());
-        let _ = map_of_picture(&text, 3, 5, text.as_bytes());
+    fn no_bytes_panic(text in ".{0,200}", image in prop::collection::vec(any::<u8>(), 0..200)) {
+        let _ = check_map(&text, None);
+        let _ = check_map(&text, picture(image.len() / 4, 1, &image).ok().as_ref());
+        let _ = of_picture(3, 5, text.as_bytes());
     }
 }

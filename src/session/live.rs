@@ -72,7 +72,8 @@ impl Session {
     pub fn open(request: &OpenRequest) -> Result<Session, Refusal> {
         let Opened { setup, name, hoa } = request.open()?;
         let run = setup.run(request.seed);
-        Ok(Session::around(request.clone(), setup, name, hoa, run))
+        let request = OpenRequest { preset: Some(setup.preset_name().to_owned()), ..request.clone() };
+        Ok(Session::around(request, setup, name, hoa, run))
     }
 
     pub(super) fn around(request: OpenRequest, setup: Setup, name: String, hoa: String, run: Run) -> Session {

@@ -42,7 +42,7 @@ pub use edges::EdgeIndex;
 pub use frame::{Counters, FrameWriter, LAYOUT_VERSION, Layout, LayoutField, Source};
 pub use live::{EpisodeTrace, Session};
 pub use open::OpenRequest;
-pub use own_map::{MapFacts, MapLabel, check_map, default_map, map_of_picture};
+pub use own_map::{MapFacts, MapLabel, check_map, default_map, map_of_picture, picture};
 pub use refusal::{Place, Refusal, Subject};
 pub use translation::{ClassFacts, Doubt, TranslationFacts, TranslationOptions, Translator, Warning, translate_formula};
 pub use trial::{Trial, TrialProgress};

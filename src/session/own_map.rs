@@ -84,25 +84,32 @@ impl MapFacts {
     }
 }
 
-/// Reads a map file; `image` is the PNG whose colours are labels, if the file says so.
+/// Reads a map file; `picture` is the one whose colours are labels, if the file says so.
 ///
 /// # Errors
 /// What is wrong with it, and where.
-pub fn check_map(json: &str, image: Option<&[u8]>) -> Result<MapFacts, Refusal> {
-    Ok(MapFacts::new(&read(json, image)?))
+pub fn check_map(json: &str, picture: Option<&Picture>) -> Result<MapFacts, Refusal> {
+    Ok(MapFacts::new(&read(json, picture)?))
 }
 
-/// A map of a picture with flat colours: `pixels` are red, green, blue and opacity, row by row from the top.
+/// A picture that a shell has decoded: `pixels` are red, green, blue and opacity, row by row from the top.
 ///
 /// # Errors
-/// A picture that is too large, is not flat, has other pixels than its size says, or leaves no free ground.
-pub fn map_of_picture(name: &str, width: usize, height: usize, pixels: &[u8]) -> Result<MapFacts, Refusal> {
+/// A picture that is too large, or has other pixels than its size says.
+pub fn picture(width: usize, height: usize, pixels: &[u8]) -> Result<Picture, Refusal> {
     if width.max(height) > MAX_SIDE || pixels.len() != width * height * 4 {
         let message = format!("a picture has 1 to {MAX_SIDE} pixels on a side, and four numbers a pixel");
         return Err(Refusal::new(Subject::Map, message));
     }
-    let pixels = pixels.as_chunks::<4>().0.to_vec();
-    let map = RoverMap::from_picture(name, &Picture { width, height, pixels }).map_err(map_refusal)?;
+    Ok(Picture { width, height, pixels: pixels.as_chunks::<4>().0.to_vec() })
+}
+
+/// A map of a picture with flat colours.
+///
+/// # Errors
+/// A picture that is not flat, or leaves no free ground.
+pub fn map_of_picture(name: &str, picture: &Picture) -> Result<MapFacts, Refusal> {
+    let map = RoverMap::from_picture(name, picture).map_err(map_refusal)?;
     Ok(MapFacts::new(&map))
 }
 
@@ -111,8 +118,8 @@ pub fn default_map() -> &'static str {
     builtin::map_of("own_map").expect("it is shipped")
 }
 
-pub(super) fn read(json: &str, image: Option<&[u8]>) -> Result<RoverMap, Refusal> {
-    RoverMap::from_json(json, image).map_err(map_refusal)
+pub(super) fn read(json: &str, picture: Option<&Picture>) -> Result<RoverMap, Refusal> {
+    RoverMap::from_json_and_picture(json, picture).map_err(map_refusal)
 }
 
 fn map_refusal(error: MapError) -> Refusal {

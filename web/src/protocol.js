@@ -162,7 +162,7 @@
  *   | { kind: 'check_hoa', text: string }
  *   | { kind: 'read_word', word: Word }
  *   | { kind: 'judge_word', formula: string, word: Word }
- *   | { kind: 'check_map', json: string, image: Uint8Array | null }
+ *   | { kind: 'check_map', json: string, image: { width: number, height: number, pixels: Uint8Array } | null }
  *   | { kind: 'map_of_picture', name: string, width: number, height: number, pixels: Uint8Array }
  *   | { kind: 'present_map' }
  *   | { kind: 'save', form: 'whole' | 'small' | 'policy' }

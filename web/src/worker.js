@@ -2,7 +2,7 @@
 /// <reference lib="webworker" />
 // The worker: owns one session and the clock. Trains in slices of about 16 ms and listens to commands between them.
 
-import init, { Session, builtin_tasks, check_formula, check_hoa, check_map, default_map, judge_word, map_of_picture } from '../pkg/ltl_rover.js';
+import init, { Session, builtin_tasks, check_formula, check_hoa, check_map, check_map_and_picture, default_map, judge_word, map_of_picture } from '../pkg/ltl_rover.js';
 import { END, Frame, located } from './protocol.js';
 
 /** @typedef {import('./protocol.js').Command} Command */
@@ -284,7 +284,7 @@ function obey(command) {
     case 'judge_word':
       return judge_word(command.formula, command.word);
     case 'check_map':
-      return check_map(command.json, command.image ?? undefined);
+      return command.image ? check_map_and_picture(command.json, command.image.width, command.image.height, command.image.pixels) : check_map(command.json);
     case 'map_of_picture':
       return map_of_picture(command.name, command.width, command.height, command.pixels);
     case 'present_map':

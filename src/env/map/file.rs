@@ -62,10 +62,17 @@ impl RoverMap {
     /// # Errors
     /// [`MapError`] names the place and what is allowed there.
     pub fn from_json(text: &str, image: Option<&[u8]>) -> Result<RoverMap, MapError> {
+        RoverMap::from_json_and_picture(text, image.map(Picture::from_png).transpose()?.as_ref())
+    }
+
+    /// As [`RoverMap::from_json`], for a picture that is decoded already.
+    ///
+    /// # Errors
+    /// As [`RoverMap::from_json`].
+    pub fn from_json_and_picture(text: &str, picture: Option<&Picture>) -> Result<RoverMap, MapError> {
         let file = parse(text)?;
-        let picture = match (&file.image, image) {
-            (Some(_), Some(bytes)) => Some(Picture::from_png(bytes)?),
-            (None, None) => None,
+        match (&file.image, picture) {
+            (Some(_), Some(_)) | (None, None) => {}
             (Some(_), None) => {
                 return Err(MapError::new("image", MapProblem::Image("the map takes labels from a picture, and there is none")));
             }
@@ -73,8 +80,8 @@ impl RoverMap {
                 let problem = "there is a picture, and the map file does not say what its colours mean";
                 return Err(MapError::new("image", MapProblem::Image(problem)));
             }
-        };
-        build(file, picture.as_ref())
+        }
+        build(file, picture)
     }
 
     /// A map from a flat PNG alone: one pixel is one unit (`px`), a step reaches 1.5 % of the longer side. Transparent, black, grey

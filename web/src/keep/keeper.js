@@ -2,7 +2,7 @@
 // Nothing is lost: the open run is kept on this machine every so often, when it rests and when the page is hidden, and offered again
 // after a reload. A worker that broke goes on from what was kept last.
 
-import { byId, count, element } from '../dom.js';
+import { byId, count, element, setText } from '../dom.js';
 import { notice } from '../keeping.js';
 import { digest } from '../maps/shelf.js';
 import { Cadence } from './cadence.js';
@@ -57,7 +57,9 @@ export class Keeper {
       clearTimeout(this.timer);
       this.cadence.begin(this.steps);
     });
-    app.signals.on('telemetry', ({ modules, steps }) => {
+    const used = byId('memory', HTMLElement);
+    app.signals.on('telemetry', ({ modules, steps, memory }) => {
+      setText(used, `${Math.round(memory / 1e6)} MB`);
       this.samples = modules.reduce((sum, module) => sum + module.replay, 0);
       this.steps = steps;
       clearTimeout(this.timer);

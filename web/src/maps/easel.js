@@ -228,6 +228,10 @@ export class Easel {
 /** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {string} name */
 function tag(context, x, y, name) {
   context.font = '500 13px "IBM Plex Mono", ui-monospace, monospace';
+  // The whole name stands on the canvas.
+  const { width, height } = context.canvas.getBoundingClientRect();
+  const half = context.measureText(name).width / 2 + 3;
+  [x, y] = [Math.max(half, Math.min(width - half, x)), Math.max(11, Math.min(height - 11, y))];
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   context.lineWidth = 4;

@@ -15,9 +15,9 @@ import { Unusable, backdrop, decode, pictureAddress, pixels } from './picture.js
 /**
  * What the editor asks of the page.
  * @typedef {object} EditorOwner
- * @property {(json: string, image?: Uint8Array | null) => Promise<MapVerdict>} check
+ * @property {(json: string, image?: ImageData | null) => Promise<MapVerdict>} check
  * @property {(name: string, image: ImageData) => Promise<MapVerdict>} ofPicture
- * @property {(json: string) => Promise<string>} use   opens a task on the map; what is wrong, or nothing
+ * @property {(json: string, suggested: string) => Promise<string>} use   opens a task on the map; what is wrong, or nothing
  * @property {{ list: () => Promise<string[]>, get: (name: string) => Promise<string | null>, put: (name: string, json: string) => Promise<string>, remove: (name: string) => Promise<void> }} kept
  *   maps on this machine by name; `put` gives what is wrong, or nothing
  */
@@ -156,7 +156,7 @@ export class MapEditor {
     this.changed();
   }
 
-  /** @param {string} json @param {Uint8Array | null} [image] @param {string} [what] */
+  /** @param {string} json @param {ImageData | null} [image] @param {string} [what] */
   async read(json, image = null, what) {
     return this.show(await this.owner.check(json, image), what);
   }
@@ -172,7 +172,7 @@ export class MapEditor {
       const picture = files.find((file) => !isMap(file));
       if (map && map.size > MAX_MAP) throw new Unusable(`${map.name} has ${Math.round(map.size / 1e6)} MB; map files have at most ${MAX_MAP >> 20} MB.`);
       if (map) {
-        const image = picture ? new Uint8Array(await picture.arrayBuffer()) : null;
+        const image = picture ? pixels(await decode(new Uint8Array(await picture.arrayBuffer()), picture.name)) : null;
         if (await this.read(await map.text(), image, map.name)) this.say(`${map.name} is open.`);
       } else if (picture) await this.takePicture(picture);
     } catch (error) {
@@ -302,21 +302,21 @@ export class MapEditor {
 
   // --- maps out --------------------------------------------------------------------------------------------------------------
 
-  /** The map as it stands; `null`, and it is said, if it is none. */
-  async json() {
+  /** The facts of the map as it stands; `null`, and it is said, if it is none. */
+  async facts() {
     const reach = Number(this.reach.value);
     this.frame = { ...this.frame, name: this.name.value.trim() || 'My map', reach };
     const verdict = await this.owner.check(this.labels.toJson(this.frame));
-    if (verdict.ok) return verdict.facts.json;
+    if (verdict.ok) return verdict.facts;
     this.say(verdict.error.message, true);
     return null;
   }
 
   async use() {
     try {
-      const json = await this.json();
-      if (json === null) return;
-      const wrong = await this.owner.use(json);
+      const facts = await this.facts();
+      if (facts === null) return;
+      const wrong = await this.owner.use(facts.json, facts.suggested);
       if (wrong) this.say(wrong, true);
       else this.dialog.close();
     } catch (error) {
@@ -325,14 +325,14 @@ export class MapEditor {
   }
 
   async save() {
-    const json = await this.json();
-    if (json !== null) offer(`${this.frame.name.replace(/[^\p{L}\p{N}_-]+/gu, '_')}.json`, json, 'application/json');
+    const facts = await this.facts();
+    if (facts) offer(`${facts.name.replace(/[^\p{L}\p{N}_-]+/gu, '_')}.json`, facts.json, 'application/json');
   }
 
   async keep() {
-    const json = await this.json();
-    if (json === null) return;
-    const wrong = await this.owner.kept.put(this.frame.name, json);
+    const facts = await this.facts();
+    if (facts === null) return;
+    const wrong = await this.owner.kept.put(facts.name, facts.json);
     this.say(wrong || `${this.frame.name} is kept on this machine.`, wrong !== '');
     await this.listKept();
   }

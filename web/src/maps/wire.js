@@ -19,9 +19,9 @@ export function wireMaps(app, store) {
   /** @type {Promise<MapEditor> | null} */
   let editor = null;
   const load = () => (editor ??= import('./editor.js').then(({ MapEditor }) => new MapEditor({
-    check: (json, image) => app.client.ask({ kind: 'check_map', json, image: image ?? null }),
-    ofPicture: (name, { width, height, data }) => app.client.ask({ kind: 'map_of_picture', name, width, height, pixels: new Uint8Array(data.buffer) }),
-    use: (json) => use(app, json),
+    check: (json, image) => app.client.ask({ kind: 'check_map', json, image: image ? plain(image) : null }),
+    ofPicture: (name, image) => app.client.ask({ kind: 'map_of_picture', name, ...plain(image) }),
+    use: (json, suggested) => use(app, json, suggested),
     kept: {
       list: () => store.maps(),
       get: (name) => store.namedMap(name),
@@ -44,13 +44,17 @@ export function wireMaps(app, store) {
   };
 }
 
+/** A picture as it crosses to the worker. @param {ImageData} image */
+const plain = ({ width, height, data }) => ({ width, height, pixels: new Uint8Array(data.buffer) });
+
 /**
  * Opens a task on the map: the open one if it is a rover's, else the one for maps of one's own. The formula stays if the map has its
  * propositions. What is wrong, or nothing.
  * @param {App} app
  * @param {string} json
+ * @param {string} suggested  a formula for it
  */
-async function use(app, json) {
+async function use(app, json, suggested) {
   const { state, description } = app;
   const map = await app.shelf.keyOf(json);
   const rover = description?.environment.name === 'rover';
@@ -59,6 +63,9 @@ async function use(app, json) {
   const base = rover ? state : { ...state, task: 'own_map', preset: '', set: {}, formula: '', hoa: '' };
   let wrong = '';
   const watch = state.watch === 'trained' ? 'policy' : state.watch;
-  await app.open({ ...base, map, watch, ...(fits ? {} : { formula: '', hoa: '' }) }, false, (error) => (wrong = error.message));
+  const stands = await app.open({ ...base, map, watch, ...(fits ? {} : { formula: '', hoa: '' }) }, false, (error) => (wrong = error.message));
+  const used = app.description?.formula.propositions ?? [];
+  const unused = labels.filter((name) => !used.includes(name));
+  if (stands && unused.length > 0) notice(`The formula does not speak of ${unused.join(', ')} yet: write it into the specification, such as ${suggested}.`);
   return wrong;
 }

@@ -27,6 +27,11 @@ export async function start() {
   return {
     browser,
     url: `http://localhost:${port}/`,
+    /** Stops the server; the browser stays. */
+    async stop() {
+      made.closeAllConnections();
+      await new Promise((resolve) => made.close(resolve));
+    },
     async close() {
       await browser.close();
       await new Promise((resolve) => made.close(resolve));
@@ -65,3 +70,21 @@ export async function number(page, id) {
 
 /** The first number of a text, digit groups read as one. @param {string | null} text */
 export const firstNumber = (text) => Number(/[\d,]+/.exec(text ?? '')?.[0].replaceAll(',', ''));
+
+/** The steps of the kept runs, the newest first. @param {Page} page @returns {Promise<number[]>} */
+export const kept = (page) => page.evaluate(async () => {
+  // @ts-ignore: a module of the page
+  const { Store } = await import('/src/keep/store.js');
+  return (await new Store().runs()).map((/** @type {{ steps: number }} */ run) => run.steps);
+});
+
+/** Waits until a run of so many steps is kept. @param {Page} page @param {(steps: number) => boolean} wanted */
+export async function untilKept(page, wanted) {
+  const end = Date.now() + 60_000;
+  for (;;) {
+    const [steps = 0] = await kept(page);
+    if (wanted(steps)) return steps;
+    if (Date.now() > end) throw new Error(`kept are ${steps} steps`);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
