@@ -24,6 +24,9 @@ const TYPES = /** @type {Record<string, string>} */ ({
 });
 const PACKED = new Set(['.html', '.css', '.js', '.json', '.webmanifest', '.wasm', '.svg', '.txt']);
 
+/** The policy of the page's own document, and what only a header can say. @param {string} document */
+const policy = (document) => `${/http-equiv="Content-Security-Policy" content="([^"]*)"/.exec(document)?.[1] ?? "default-src 'none'"}; frame-ancestors 'none'`;
+
 /**
  * A server of the files under `root`, on this machine only.
  * @param {string} root
@@ -53,6 +56,7 @@ export function server(root) {
         return;
       }
       let body = /** @type {Buffer<ArrayBuffer>} */ (await readFile(file));
+      const more = type === '.html' ? { 'Content-Security-Policy': policy(body.toString()), 'Referrer-Policy': 'no-referrer' } : {};
       if (PACKED.has(type) && /\bgzip\b/.test(String(request.headers['accept-encoding']))) {
         const known = packed.get(file);
         const fresh = known?.time === facts.mtimeMs ? known.body : gzipSync(body);
@@ -60,7 +64,7 @@ export function server(root) {
         body = fresh;
         Object.assign(headers, { 'Content-Encoding': 'gzip' });
       }
-      response.writeHead(200, { ...headers, 'Content-Length': body.length });
+      response.writeHead(200, { ...headers, ...more, 'Content-Length': body.length });
       response.end(request.method === 'HEAD' ? undefined : body);
     } catch {
       response.writeHead(404, { 'Content-Type': 'text/plain' }).end('not found');

@@ -86,8 +86,8 @@ const HOSTILE_LINKS = [
 test('a hostile link is told of, and the page stands', async () => {
   const { page, context, problems } = await visit(site);
   for (const [link, wanted] of HOSTILE_LINKS) {
+    await page.goto('about:blank');
     await page.goto(`${site.url}${link}`);
-    await page.reload();
     await page.waitForSelector('#automaton svg .node.current');
     const seen = () => page.evaluate(() => [...document.querySelectorAll('#notices, .said')].map((n) => n.textContent).join(' '));
     for (const end = Date.now() + 20_000; !wanted.test(await seen()) && Date.now() < end;) await new Promise((resolve) => setTimeout(resolve, 50));
