@@ -38,7 +38,7 @@ export class LabelCanvas {
     this.past = [];
     /** @type {Change[]} */
     this.future = [];
-    /** The cells of the stroke that is going on, with what they were. @type {Map<number, number> | null} */
+    /** All cells as they were before the stroke that is going on. @type {Uint32Array | null} */
     this.stroke = null;
   }
 
@@ -52,7 +52,7 @@ export class LabelCanvas {
 
   /** Begins a stroke: what follows is undone as one. */
   begin() {
-    this.stroke ??= new Map();
+    this.stroke ??= this.masks.slice();
   }
 
   /**
@@ -93,17 +93,20 @@ export class LabelCanvas {
     const only = label === null ? 0 : (1 << label) >>> 0;
     const alone = !together || label === null || label === this.hazard || (this.hazard >= 0 && (old >>> this.hazard) & 1);
     const next = alone ? only : (old | only) >>> 0;
-    if (next === old) return;
-    const stroke = /** @type {Map<number, number>} */ (this.stroke);
-    if (!stroke.has(at)) stroke.set(at, old);
     this.masks[at] = next;
   }
 
   /** Ends the stroke. */
   end() {
-    const stroke = this.stroke;
+    const { stroke, masks } = this;
     this.stroke = null;
-    if (stroke && stroke.size > 0) this.remember({ places: Uint32Array.from(stroke.keys()), before: Uint32Array.from(stroke.values()), labels: null, hazard: this.hazard });
+    if (!stroke) return;
+    let count = 0;
+    for (let at = 0; at < masks.length; at++) if (stroke[at] !== masks[at]) count++;
+    if (count === 0) return;
+    const places = new Uint32Array(count);
+    for (let at = 0, k = 0; k < count; at++) if (stroke[at] !== masks[at]) places[k++] = at;
+    this.remember({ places, before: places.map((at) => stroke[at]), labels: null, hazard: this.hazard });
   }
 
   /** @param {Change} change */
