@@ -132,7 +132,7 @@ fn a_checkpoint_knows_its_map_its_counts_and_how_it_was_opened() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     /// Whatever is painted opens with the formula that is suggested for it, or is refused with a reason.
     #[test]
