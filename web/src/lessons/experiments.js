@@ -1,6 +1,7 @@
 // @ts-check
 // From what the instrument answers to the numbers of an outcome, and the sentence that says what was seen.
 
+import { brief } from '../dom.js';
 import { setName, stateName } from '../palette.js';
 import { END, Frame } from '../protocol.js';
 import { initialState } from '../state.js';
@@ -18,7 +19,7 @@ export const RUNS = 50;
 
 /** @type {Outcome} */
 const NOTHING = Object.freeze({
-  truths: [], runAccepting: false, states: [], paid: [], rewards: [], sinks: [], rounds: 0, automatonStates: 0, sets: 0, policies: 0, satisfying: 0,
+  truths: [], runAccepting: false, states: [], paid: [], rewards: [], discounts: [], sinks: [], rounds: 0, automatonStates: 0, sets: 0, policies: 0, satisfying: 0,
   steps: 0, perfect: null, successes: 0, runs: 0, ended: false, words: '',
 });
 
@@ -49,13 +50,17 @@ export function wordOutcome(description, reading, letters, others) {
   const words = verdicts.map((v) => `\`${v.formula}\` ${holds(v.holds)} on this word.`);
   const jumped = description.automaton.edges.some((edge) => edge.kind === 'epsilon');
   if (jumped) words.push(reading.run_accepting ? 'This run is accepting.' : 'This run is not accepting.');
+  const [rewards, discounts] = [column('reward'), column('discount')];
+  const list = (/** @type {number[]} */ numbers) => numbers.map((x) => (Math.abs(x) < 1e-9 ? '0' : brief(x))).join(', ');
+  if (rewards.some((r) => Math.abs(r) > 1e-9)) words.push(`Its letters pay ${list(rewards)} and discount what follows by ${list(discounts)}.`);
   return {
     ...NOTHING,
     truths: verdicts.map((v) => v.holds),
     runAccepting: reading.run_accepting,
     states: column('q'),
     paid: column('accepting_reward'),
-    rewards: column('reward'),
+    rewards,
+    discounts,
     sinks: column('q').map((q) => description.automaton.states[q].sink),
     rounds: frame.at(reading.data, reading.rows - 1).number('rounds'),
     automatonStates: description.automaton.states.length,

@@ -23,6 +23,7 @@
  * @property {number[]} states        word: the automaton state after each letter, in order; jumps do not count
  * @property {number[]} paid          word: R(x′) of each letter
  * @property {number[]} rewards       word: R′, shaping included, of each letter
+ * @property {number[]} discounts     word: γ(x′) of each letter
  * @property {boolean[]} sinks        word: whether a sink is reached by each letter
  * @property {number} rounds          word: rounds closed when the run repeats itself; episode: rounds; training: mean of the runs
  * @property {number} automatonStates

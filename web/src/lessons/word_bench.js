@@ -115,6 +115,7 @@ export class WordBench {
     const rows = names.map((name) => element('tr', {}, element('th', { scope: 'row' }, element('code', {}, name)), ...word.letters.map((letter, k) => this.toggle(name, k, letter.includes(name)))));
     const row = (/** @type {string} */ label, /** @type {string} */ className) =>
       element('tr', { className }, element('th', { scope: 'row' }, label), ...word.letters.map(() => cell('')));
+    this.table.classList.toggle('long', n > 6);
     this.table.replaceChildren(head, element('tbody', {}, ...rows, row('state', 'states'), row('paid', 'paid')));
     this.note.textContent = this.reading ? 'Press a field to change the word; it is read again at once.' : '';
     setText(this.said, this.reading ? '' : 'Not read yet.');

@@ -93,7 +93,7 @@ test('a question after training is decided by its numbers, whichever way they co
   }
 });
 /** @type {import('../../src/lessons/model.js').Outcome} */
-const automatonOutcomeOfNothing = { truths: [], runAccepting: false, states: [], paid: [], rewards: [], sinks: [], rounds: 0, automatonStates: 0, sets: 0, policies: 0, satisfying: 0, steps: 0, perfect: null, successes: 0, runs: 0, ended: false, words: '' };
+const automatonOutcomeOfNothing = { truths: [], runAccepting: false, states: [], paid: [], rewards: [], discounts: [], sinks: [], rounds: 0, automatonStates: 0, sets: 0, policies: 0, satisfying: 0, steps: 0, perfect: null, successes: 0, runs: 0, ended: false, words: '' };
 
 test('what is said of a training is what was measured', () => {
   for (const { name, steps } of LESSONS) {

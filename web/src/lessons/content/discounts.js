@@ -19,7 +19,7 @@ export const discounts = {
       ask: 'r_F = 0.9. What does the discount γ(x′) become in a step that visits an accepting set of T?',
       choices: ['0.1', '0.9', '0.99', '1'],
       experiment: { kind: 'word', state: { task: 'ball_pass_b1', preset: 'fast' }, word: word('(r1 - r2 -)') },
-      bears: ({ paid }) => [0.9, 0.1, 0.01, 0].findIndex((value) => Math.abs(paid[0] - value) < 1e-6),
+      bears: ({ discounts: [first] }) => [0.1, 0.9, 0.99, 1].findIndex((value) => Math.abs(first - value) < 1e-6),
       key: 1,
       why: 'It pays 1 − r_F = 0.1 and discounts by r_F = 0.9; the steps between discount by 0.99. Look at “reward” and “discount” below the automaton as the word is read.',
     },
