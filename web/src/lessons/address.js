@@ -90,3 +90,11 @@ export function readAddress(search) {
   }
   return { address, problems };
 }
+
+/** The address of another lesson; what the teacher has fixed stays. @param {string} name */
+export function lessonAddress(name) {
+  const search = new URLSearchParams(location.search);
+  for (const left of ['step', 'gallery', 'worksheet', 'key']) search.delete(left);
+  search.set('lesson', name);
+  return `?${search}`;
+}

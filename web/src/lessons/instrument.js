@@ -37,7 +37,12 @@ export class Instrument {
     /** Each run has a number; a later one supersedes it. */
     this.turn = 0;
     this.finished = false;
-    app.signals.on('finished', () => (this.finished = true));
+    /** Steps to the first perfect evaluation of the training that finished. @type {number | null} */
+    this.perfect = null;
+    app.signals.on('finished', (perfect) => {
+      this.finished = true;
+      this.perfect = perfect;
+    });
   }
 
   /** Whether the open session has not been trained. */
@@ -143,7 +148,7 @@ export class Instrument {
       progress(Math.min(made, steps), steps, `${app.training ? 'training' : 'paused'}, ${made.toLocaleString('en')} of at most ${steps.toLocaleString('en')} steps`);
     }
     if (app.training) app.toggleTraining();
-    const perfect = this.finished ? made : null;
+    const perfect = this.finished ? this.perfect : null;
     progress(steps, steps, `playing ${RUNS} runs`);
     const evaluation = await app.client.ask({ kind: 'evaluate', runs: RUNS });
     this.keep(turn);

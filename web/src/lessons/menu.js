@@ -2,6 +2,7 @@
 // The menu of lessons: what there is, how far one has come.
 
 import { element } from '../dom.js';
+import { lessonAddress } from './address.js';
 import { LESSONS } from './content/index.js';
 import { isQuestion } from './model.js';
 import { answered, readProgress } from './progress.js';
@@ -17,7 +18,7 @@ export async function openMenu() {
   const entry = (/** @type {import('./model.js').Lesson} */ lesson) => {
     const questions = lesson.steps.filter(isQuestion).length;
     const done = answered(progress, lesson);
-    return element('li', {}, element('a', { href: `?lesson=${lesson.name}` }, element('b', {}, ...prose(lesson.title)), element('span', {}, ...prose(lesson.aim))),
+    return element('li', {}, element('a', { href: lessonAddress(lesson.name) }, element('b', {}, ...prose(lesson.title)), element('span', {}, ...prose(lesson.aim))),
       element('span', { className: 'soft number' }, done === 0 ? `${lesson.minutes} min` : done === questions ? '✓ done' : `${done} of ${questions}`));
   };
   const dialog = element('dialog', { id: 'lessons', 'aria-labelledby': 'lessons-title' },

@@ -2,6 +2,7 @@
 // The lesson beside the instrument: its words, its steps one at a time, the way to the lessons before and after.
 
 import { element } from '../dom.js';
+import { lessonAddress } from './address.js';
 import { LESSONS } from './content/index.js';
 import { answered, forgetAnswers, keepAnswer, readProgress } from './progress.js';
 import { isQuestion } from './model.js';
@@ -10,15 +11,6 @@ import { StepView } from './questions.js';
 
 /** @typedef {import('./model.js').Lesson} Lesson */
 /** @typedef {import('./instrument.js').Instrument} Instrument */
-
-/** The address of another lesson that keeps what the teacher has fixed. @param {string} name */
-export function lessonAddress(name) {
-  const search = new URLSearchParams(location.search);
-  search.delete('step');
-  search.delete('gallery');
-  search.set('lesson', name);
-  return `?${search}`;
-}
 
 export class LessonPanel {
   /**

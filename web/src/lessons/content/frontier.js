@@ -10,7 +10,7 @@ export const frontier = {
   hide: ['spec', 'compare', 'details'],
   words: [
     'A deterministic policy takes one action in each state it can tell apart. The *standard product* lets it see the place s and the automaton state q. The *embedded product* (EP-MDP) shows it the *frontier* T as well: the accepting sets still to be visited in this round.',
-    'The argument needs only three places: free ground, region 1, region 2. From free ground one action leads to either region; from a region one goes back. The automaton is in q0 on free ground, in q1 in region 1, in q2 in region 2.',
+    'The argument (Fig. 4 of Cai et al. 2021) needs only three places: free ground, region 1, region 2. From free ground one action leads to either region; from a region one goes back. The automaton is in q0 on free ground, in q1 in region 1, in q2 in region 2.',
   ],
   steps: [
     {
