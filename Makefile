@@ -50,7 +50,7 @@ test-rust: ## logic, in debug
 
 .PHONY: test-learning
 test-learning: ## kernels against burn, learning, and the examples, in release
-	@$(ENV) cargo test --profile quick --features burn --test kernels --test learning --test python
+	@$(ENV) cargo test --profile quick --features burn --test kernels --test learning --test epsilon_learning --test python
 	@$(ENV) for example in own_environment train_a_task; do cargo run --quiet --profile quick --features burn --example $$example; done
 
 .PHONY: test-wasm

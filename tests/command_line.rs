@@ -3,7 +3,8 @@
 
 use std::process::{Command, Output, Stdio};
 
-const COMMANDS: &[&str] = &["check", "classify", "translate", "train", "eval", "run", "replay", "plot", "bench", "schema"];
+const COMMANDS: &[&str] =
+    &["check", "classify", "translate", "train", "eval", "run", "replay", "plot", "reproduce", "bench", "schema"];
 
 fn ltl_rover(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ltl-rover"));

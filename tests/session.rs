@@ -43,7 +43,9 @@ fn every_built_in_task_opens_is_described_and_moves() {
             assert_eq!(session.frame().len(), layout.length);
             assert_eq!(session.advance(30), 30);
             let frame = session.frame();
-            assert_eq!(field(&layout, &frame, "step"), [30.0, 0.0]);
+            // Of 30 moves, ε-moves are no steps of the environment.
+            let step = field(&layout, &frame, "step")[0];
+            assert!(step == 30.0 || entry.name == "islands" && (1.0..30.0).contains(&step), "{}: {step}", entry.name);
             assert!(frame.iter().all(|x| x.is_finite()), "{}: every number of a frame is finite", entry.name);
             let edge = &description.automaton.edges[field(&layout, &frame, "edge")[0] as usize];
             assert_eq!(

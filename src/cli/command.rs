@@ -7,6 +7,7 @@ use super::eval;
 use super::failure::Failure;
 use super::plot;
 use super::replay;
+use super::reproduce::Reproduce;
 use super::run;
 use super::schema;
 use super::train;
@@ -42,6 +43,8 @@ pub enum Command {
     Replay(replay::Replay),
     /// Draw the curves of one or several runs: average and total reward, rounds, success.
     Plot(plot::Plot),
+    /// Make the tables and figures of the paper: trainings over seeds, intervals, curves, trajectories.
+    Reproduce(Reproduce),
     /// Time the networks and whole training steps: all implementations in one table of ratios.
     Bench(bench::Bench),
     /// Print the JSON schema of task files.
@@ -66,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Replay(replay) => replay.run(),
         Command::Plot(plot) => plot.run(),
+        Command::Reproduce(reproduce) => reproduce.run(),
         Command::Bench(bench) => bench.run(),
         Command::Schema(schema) => schema.run(),
     };

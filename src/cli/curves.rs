@@ -11,7 +11,7 @@ use std::path::Path;
 const FONT: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
 
 /// Okabe and Ito's palette, distinguishable with every kind of colour vision.
-const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -75,12 +75,20 @@ fn running_mean(values: &[f64], window: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
+/// Makes the font known to plotters; before any drawing.
+///
+/// # Errors
+/// If the font is damaged.
+pub fn font() -> Result<(), Failure> {
+    register_font("sans-serif", FontStyle::Normal, FONT).map_err(|_| Failure::running("the font of plots is damaged"))
+}
+
 /// Draws the curves into `out`, an `.svg` or `.png` file.
 ///
 /// # Errors
 /// Another ending, or a file that cannot be written.
 pub fn draw(out: &Path, metric: Metric, curves: &[Curve]) -> Result<(), Failure> {
-    register_font("sans-serif", FontStyle::Normal, FONT).map_err(|_| Failure::running("the font of plots is damaged"))?;
+    font()?;
     let size = (960, 600);
     let ending = out.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     if let Some(folder) = out.parent().filter(|f| !f.as_os_str().is_empty()) {

@@ -1,9 +1,11 @@
 //! `eval`: many greedy episodes of a trained policy, and what they show.
 
+use super::card;
 use super::failure::Failure;
 use super::files;
 use super::output::outln;
-use crate::eval::evaluate;
+use crate::eval::{Evaluation, RolloutSettings, evaluate};
+use crate::product::Start;
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -14,9 +16,13 @@ use std::process::ExitCode;
   ltl-rover eval runs/b1
   ltl-rover eval runs/b1 --runs 200 --json
   ltl-rover eval runs/b1/policy.safetensors --seed 7
+  ltl-rover eval runs/b1 --start initial --runs 1
+  ltl-rover eval runs/b1/policy.safetensors --card runs/b1/policy.md
 
 An episode succeeds if it completes at least one round of all accepting sets within its steps and never enters a sink: a state from
-which the automaton cannot accept, or the end of the environment (the arena left, the pole fallen).")]
+which the automaton cannot accept, or the end of the environment (the arena left, the pole fallen).
+Starts are the task's; --start initial takes the environment's own, --start anywhere spreads them over all safe ground. The initial
+start of Ball-Pass is a single state and nothing there is random, so that one run from it says as much as two hundred.")]
 pub struct Eval {
     /// A folder that `train` wrote, or a checkpoint or policy file.
     #[arg(value_name = "RUN")]
@@ -27,6 +33,15 @@ pub struct Eval {
     /// The seed of the starts: equal seeds give equal starts to all policies.
     #[arg(long, default_value_t = 1000)]
     seed: u64,
+    /// Where the environment starts, in place of the task's choice.
+    #[arg(long, value_enum)]
+    start: Option<Start>,
+    /// Environment steps in an episode, in place of the task's.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    max_steps: Option<u32>,
+    /// Write a model card: what the policy is, how it was trained, what these episodes have shown.
+    #[arg(long, value_name = "FILE.md")]
+    card: Option<PathBuf>,
     /// One JSON object.
     #[arg(long)]
     json: bool,
@@ -40,9 +55,16 @@ impl Eval {
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let (setup, mut learner) = files::policy(&self.run)?;
         let runs = self.runs.unwrap_or(setup.task().file().evaluation.runs);
-        let e = evaluate(&mut setup.rollout(self.seed), &mut learner, runs, self.seed);
+        let task = setup.rollout_settings();
+        let (max_steps, start) = (self.max_steps.unwrap_or(task.max_steps), self.start.unwrap_or(task.start));
+        let settings = RolloutSettings { max_steps, start };
+        let e = evaluate(&mut setup.rollout_under(settings, self.seed), &mut learner, runs, self.seed);
+        if let Some(file) = &self.card {
+            let text = card::card(&files::checkpoint(&self.run)?, &setup, &learner, (&e, settings));
+            files::write(file, text)?;
+        }
         if self.json {
-            outln!("{}", serde_json::to_string(&Json::from(&e)).expect("plain data has a form in JSON"));
+            outln!("{}", serde_json::to_string(&Json::of(&e, settings)).expect("plain data has a form in JSON"));
             return Ok(ExitCode::SUCCESS);
         }
         let percent = |x: f64| format!("{:.1} %", 100.0 * x);
@@ -55,12 +77,16 @@ impl Eval {
             percent(e.ci95.low),
             percent(e.ci95.high)
         );
-        outln!("rounds         {:.2} per episode of {} steps", e.rounds_mean, setup.rollout_settings().max_steps);
+        outln!("rounds         {:.2} per episode of {max_steps} steps", e.rounds_mean);
         let first = e.first_round_steps_mean.map_or("never".to_owned(), |s| format!("after {s:.1} steps"));
         outln!("first round    {first}");
         outln!("sinks          {}", percent(e.sink_rate));
         outln!("total reward   {:.4} per episode", e.total_reward_mean);
-        outln!("seed           {}", e.seed);
+        let start = match start {
+            Start::Initial => "the environment's own",
+            Start::Anywhere => "anywhere on safe ground",
+        };
+        outln!("starts         {start}, seed {}", e.seed);
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -77,10 +103,12 @@ struct Json {
     first_round_steps_mean: Option<f64>,
     total_reward_mean: f64,
     seed: u64,
+    start: Start,
+    max_steps: u32,
 }
 
-impl From<&crate::eval::Evaluation> for Json {
-    fn from(e: &crate::eval::Evaluation) -> Json {
+impl Json {
+    fn of(e: &Evaluation, settings: RolloutSettings) -> Json {
         Json {
             runs: e.runs,
             successes: e.successes,
@@ -91,6 +119,8 @@ impl From<&crate::eval::Evaluation> for Json {
             first_round_steps_mean: e.first_round_steps_mean,
             total_reward_mean: e.total_reward_mean,
             seed: e.seed,
+            start: settings.start,
+            max_steps: settings.max_steps,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! Results go to standard output (`--json`: one JSON object per line), progress and errors to standard error.
 
 pub mod bench;
+mod card;
 mod check;
 mod classify;
 mod command;
@@ -16,6 +17,7 @@ mod output;
 mod plot;
 mod progress;
 mod replay;
+mod reproduce;
 mod run;
 pub mod schema;
 mod train;

@@ -1,6 +1,7 @@
 //! The tasks that come with the program: their files, compiled in, so that a page needs no file system.
 
 use super::refusal::{Refusal, Subject};
+use crate::env::map::RoverMap;
 use crate::task::Task;
 use serde::Serialize;
 
@@ -23,7 +24,7 @@ macro_rules! builtin {
 }
 
 const BUILTINS: &[Builtin] =
-    builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2", "melas", "victoria", "own_map"];
+    builtin!["ball_pass_b1", "ball_pass_b2", "cart_pole_c1", "cart_pole_c2", "melas", "victoria", "phi_p", "islands", "own_map"];
 
 /// The built-in task with exactly this text.
 pub(super) fn with_text(text: &str) -> Option<&'static Builtin> {
@@ -63,6 +64,14 @@ pub fn builtin_tasks() -> Vec<TaskEntry> {
         }
     };
     BUILTINS.iter().map(entry).collect()
+}
+
+/// The built-in task of that name and the text of its automaton.
+pub fn builtin_task(name: &str) -> Option<(Task, &'static str)> {
+    let builtin = BUILTINS.iter().find(|b| b.name == name)?;
+    let task = Task::parse(builtin.toml, name).expect("the files in specs/ are tested to parse");
+    let map = map_of(name).map(|text| RoverMap::from_json(text, None).expect("the files in specs/ are tested to parse"));
+    Some((map.into_iter().fold(task, Task::with_map), builtin.hoa))
 }
 
 /// The presets of a task, `fast` first: it is the one that a person waits for.

@@ -33,7 +33,7 @@ mod value_map;
 mod word;
 
 pub use activity::ModuleStatistics;
-pub use builtin::{TaskEntry, builtin_tasks};
+pub use builtin::{TaskEntry, builtin_task, builtin_tasks};
 pub use check::{FormulaFacts, HoaFacts, Remark, check_formula, check_hoa};
 pub use comparison::ComparisonFacts;
 pub use curves::{CurveRecorder, Curves, EpisodeLosses, EpisodeOutcome};

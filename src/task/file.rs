@@ -33,7 +33,7 @@ pub struct TaskFile {
 pub struct EnvironmentSection {
     /// Its name, such as `ball_pass`.
     pub name: String,
-    /// For `rover`: a shipped map (`melas`, `victoria`), or a map file (JSON, or a flat PNG) relative to the task file.
+    /// For `rover`: a shipped map (`melas`, `victoria`, `three_targets`), or a map file (JSON, or a flat PNG) relative to the task file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<String>,
     /// For `islands`: where the current is.

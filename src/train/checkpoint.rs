@@ -71,8 +71,21 @@ pub struct Checkpoint {
     pub origin: Origin,
     /// The run's seed.
     pub seed: u64,
+    /// How far the run had come.
+    pub extent: Extent,
     state: Option<RunMemory>,
     tensors: BTreeMap<String, NetworkTensor>,
+}
+
+/// How far a run had come when it was saved; 0 where a file does not say.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Extent {
+    /// Environment steps.
+    pub steps: u64,
+    /// Episodes begun.
+    pub episodes: u64,
+    /// Updates of all modules.
+    pub updates: u64,
 }
 
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -250,7 +263,9 @@ impl Checkpoint {
         let state = text("state").map(|state| toml::from_str(&state)).transpose();
         let state = state.map_err(|e| CheckpointError::new(format!("its state is malformed: {}", e.message())))?;
         let tensors = record.tensors.into_iter().map(|t| (t.name.clone(), t)).collect();
-        Ok(Checkpoint { origin, seed, state, tensors })
+        let number = |key: &str| text(key).and_then(|text| text.parse().ok()).unwrap_or(0);
+        let extent = Extent { steps: number("steps"), episodes: number("episodes"), updates: number("updates") };
+        Ok(Checkpoint { origin, seed, extent, state, tensors })
     }
 
     /// Whether the critics are among its networks: without them a policy knows what to do, but not what that is worth.

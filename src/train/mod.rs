@@ -9,7 +9,7 @@ mod run;
 mod settings;
 mod trainer;
 
-pub use checkpoint::{Checkpoint, CheckpointError, FORMAT, Origin};
+pub use checkpoint::{Checkpoint, CheckpointError, Extent, FORMAT, Origin};
 pub use metrics::{EpisodeSummary, Metrics};
 pub use run::{Best, PolicyTensors, Progress, Run};
 pub use settings::{EmbeddedStart, Stop, TrainingSettings};

@@ -46,7 +46,7 @@ fn the_shipped_maps_have_the_size_and_labels_of_the_paper() {
     assert_eq!(victoria.propositions.iter().collect::<Vec<_>>(), names);
     assert_eq!(RoverMap::shipped("mars"), None);
     assert!(Rover::shipped("mars").is_none());
-    assert_eq!(RoverMap::shipped_names().collect::<Vec<_>>(), ["melas", "victoria"]);
+    assert_eq!(RoverMap::shipped_names().collect::<Vec<_>>(), ["melas", "victoria", "three_targets"]);
 }
 
 #[test]

@@ -15,9 +15,12 @@ pub const MAX_REGIONS: usize = 1_000;
 /// The largest number of corners of all polygons together.
 pub const MAX_POINTS: usize = 100_000;
 
-/// The two maps of the paper, as map files.
-const SHIPPED: [(&str, &str); 2] =
-    [("melas", include_str!("../../../assets/melas.json")), ("victoria", include_str!("../../../assets/victoria.json"))];
+/// The two maps of the paper, and a small one for its worked example, as map files.
+const SHIPPED: [(&str, &str); 3] = [
+    ("melas", include_str!("../../../assets/melas.json")),
+    ("victoria", include_str!("../../../assets/victoria.json")),
+    ("three_targets", include_str!("../../../assets/three_targets.json")),
+];
 
 /// A checked map: its size, its labels, its regions and the grid of letters made of them.
 #[derive(Clone, PartialEq, Debug)]
@@ -47,7 +50,7 @@ pub struct RoverMap {
 }
 
 impl RoverMap {
-    /// The text of a shipped map file, `melas` or `victoria`; `None` for other names.
+    /// The text of a shipped map file, `melas`, `victoria` or `three_targets`; `None` for other names.
     pub fn shipped(name: &str) -> Option<&'static str> {
         SHIPPED.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
     }
