@@ -73,6 +73,10 @@ bench: ## speed of the kernels, native and WebAssembly, as ratios in one run
 	@$(ENV) with_wasm cargo build --quiet --release --no-default-features --target wasm32-unknown-unknown --example kernels_wasm
 	@$(ENV) LTL_ROVER_WASM=$$CARGO_TARGET_DIR/wasm32-unknown-unknown/release/examples/kernels_wasm.wasm cargo bench --features burn --bench kernels
 
+.PHONY: measure
+measure: page ## first movement, frames a second and memory of the page over ten minutes of training
+	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node measure.mjs
+
 .PHONY: bench-peers
 bench-peers: ## the same work in PyTorch and Stable-Baselines3, from PyPI (large)
 	@$(ENV) python3 -m venv $$LTL_ROVER_CACHE/peers

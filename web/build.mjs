@@ -125,7 +125,7 @@ await writeFile(join(out, 'service_worker.js'), worker
 sizes.sort((a, b) => b.packed - a.packed);
 // What the first visit needs before anything moves: all that is not loaded later on, with the policy and drawing of the first task.
 const task = initialState().task;
-const LATER = /^(vendor\/(viz|LICENSE)|assets\/|drawings\/|lessons\/|src\/lessons\/|src\/maps\/(canvas|easel|editor)\.js|service_worker|manifest)/;
+const LATER = /^(vendor\/(viz|uplot\.js|LICENSE)|assets\/|drawings\/|lessons\/|src\/lessons\/|src\/maps\/(canvas|easel|editor)\.js|service_worker|manifest)/;
 const FIRST = new Set([`assets/policies/${task}.safetensors`, `drawings/${task}.json`]);
 const first = sizes.filter(({ file }) => FIRST.has(file) || !LATER.test(file)).reduce((sum, f) => sum + f.packed, 0);
 const FIRST_LIMIT = 1024 * 1024;
