@@ -64,6 +64,10 @@ export class App {
     this.kept = null;
     /** @type {import('./values.js').Values | null} */
     this.values = null;
+    /** @type {object | null} */
+    this.translating = null;
+    /** @type {import('./experiment/panel.js').Experiment | null} */
+    this.experiment = null;
     const on = (/** @type {string} */ id, /** @type {() => void} */ act) => $.button(id).addEventListener('click', act);
     on('evaluate', () => this.evaluate());
     on('settings-own', () => this.open({ ...this.state, set: {} }));

@@ -2,6 +2,7 @@
 // What is drawn over the ground, as switches.
 
 import { byId, element } from './dom.js';
+import { isHazard } from './views/ground.js';
 
 /** @typedef {import('./app.js').App} App */
 
@@ -11,6 +12,17 @@ const LAYERS = Object.freeze([
   { layer: 'paths', name: 'Earlier runs', title: 'The ways of the last episodes, fading' },
   { layer: 'value', name: 'Value', title: 'What the critic expects from each place, and what the policy does there' },
 ]);
+
+/** Offers what the scene has: hazards, places on a ground. @param {App['description']} description @param {HTMLInputElement[]} boxes */
+function offerFitting(description, boxes) {
+  if (!description) return;
+  const { scene, propositions } = description.environment;
+  const fits = { unsafe: propositions.some((_, p) => isHazard(scene, propositions, p)), paths: scene.body.kind !== 'cart_pole' };
+  for (const box of boxes) {
+    const label = /** @type {HTMLElement} */ (box.parentElement);
+    label.hidden = fits[/** @type {keyof typeof fits} */ (box.value)] === false;
+  }
+}
 
 /** @param {App} app */
 export function wireLayers(app) {
@@ -25,6 +37,7 @@ export function wireLayers(app) {
     return box;
   });
   const show = () => {
+    offerFitting(app.description, boxes);
     for (const box of boxes) box.checked = app.state.layers.includes(box.value);
     app.theatre.setLayers(app.state.layers);
   };

@@ -4,6 +4,7 @@
 import { App } from './app.js';
 import { wireChrome } from './chrome.js';
 import { byId, element } from './dom.js';
+import { wireExperiment } from './experiment/panel.js';
 import { wireFiles } from './files.js';
 import { Keeper } from './keep/keeper.js';
 import { wireKeptRuns } from './keep/panel.js';
@@ -15,6 +16,7 @@ import { tellProblems, wireLink } from './link.js';
 import { Shelf } from './maps/shelf.js';
 import { wireMaps } from './maps/wire.js';
 import { readHash } from './state.js';
+import { wireTranslating } from './translating.js';
 import { wireValues } from './values.js';
 
 if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
@@ -28,7 +30,7 @@ if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
     const { state, problems } = (lessons?.beginning ?? readHash)(location.hash);
     const store = new Store();
     const app = new App(state, new Shelf(store));
-    for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues]) wire(app);
+    for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues, wireTranslating, wireExperiment]) wire(app);
     wireFiles(app, wireMaps(app, store));
     const keeper = new Keeper(app, store);
     wireKeptRuns(keeper, store);

@@ -126,6 +126,15 @@ export class Theatre {
     });
   }
 
+  /** Draws another automaton in place of the open one, which goes on unseen. @param {import('./protocol.js').AutomatonGraph} graph */
+  preview(graph) {
+    return this.automaton.preview(graph).catch(() => {});
+  }
+
+  endPreview() {
+    if (this.automaton.endPreview()) this.refresh();
+  }
+
   /** Shows nothing any more, until another session is there. */
   close() {
     this.description = null;

@@ -18,10 +18,13 @@ const PLACE = '\u25CF';
 /** A label in the signs of logic. @param {string} label */
 export const logical = (label) => label.replaceAll('!', '¬').replaceAll('&', '∧').replaceAll('|', '∨').replace(/^true$/, '⊤');
 
+/** A label longer than this is broken. */
+const LONG = 13;
+
 /** Long labels are broken at their disjunctions, and longer ones at their conjunctions too. @param {string} label */
 function broken(label) {
-  const parts = label.length > 18 ? label.split(' ∨ ') : [label];
-  return parts.map((part) => (part.length > 18 ? part.split(' ∧ ').join(' ∧\n') : part)).join(' ∨\n');
+  const parts = label.length > LONG ? label.split(' ∨ ') : [label];
+  return parts.map((part) => (part.length > LONG ? part.split(' ∧ ').join(' ∧\n') : part)).join(' ∨\n');
 }
 
 /**
@@ -124,6 +127,8 @@ export class Automaton {
     this.q = -1;
     this.edge = -2;
     this.turn = 0;
+    /** What stands in place of the preview when that ends. @type {Element[] | null} */
+    this.kept = null;
   }
 
   /**
@@ -136,8 +141,41 @@ export class Automaton {
     this.graph = graph;
     this.q = -1;
     this.edge = -2;
-    const drawings = await this.draw([toDot(graph, 'LR'), toDot(graph, 'TB')], task);
+    this.kept = null;
+    const svg = await this.drawn(graph, task);
     if (turn !== this.turn) return;
+    this.root.classList.remove('preview');
+    this.root.replaceChildren(svg);
+    this.q = -1;
+    this.edge = -2;
+  }
+
+  /** Shows another automaton in place of the one that moves. @param {AutomatonGraph} graph */
+  async preview(graph) {
+    const turn = ++this.turn;
+    const svg = await this.drawn(graph, null);
+    if (turn !== this.turn) return;
+    this.kept ??= [...this.root.children];
+    this.root.classList.add('preview');
+    this.root.replaceChildren(svg);
+  }
+
+  /** Shows the automaton that moves again; whether another was shown. */
+  endPreview() {
+    if (!this.kept) return false;
+    this.turn++;
+    this.root.classList.remove('preview');
+    this.root.replaceChildren(...this.kept);
+    this.kept = null;
+    this.root.querySelectorAll('.current, .last').forEach((marked) => marked.classList.remove('current', 'last'));
+    this.q = -1;
+    this.edge = -2;
+    return true;
+  }
+
+  /** @param {AutomatonGraph} graph @param {string | null} task */
+  async drawn(graph, task) {
+    const drawings = await this.draw([toDot(graph, 'LR'), toDot(graph, 'TB')], task);
     const svg = this.fitting(drawings);
     svg.querySelectorAll('title').forEach((title) => title.remove());
     svg.setAttribute('role', 'img');
@@ -149,9 +187,7 @@ export class Automaton {
     svg.style.maxWidth = `${width * 1.8}px`;
     svg.style.maxHeight = `${height * 1.8}px`;
     decorate(svg, graph);
-    this.root.replaceChildren(svg);
-    this.q = -1;
-    this.edge = -2;
+    return svg;
   }
 
   /** Of the drawing from left to right and the one from top to bottom the one that shows larger. @param {SVGSVGElement[]} drawings */
@@ -166,6 +202,7 @@ export class Automaton {
 
   /** @param {Frame} frame */
   update(frame) {
+    if (this.kept) return;
     const [q, edge] = [frame.number('q'), frame.number('edge')];
     if (q !== this.q) {
       this.mark(`q${this.q}`, `q${q}`, 'current');

@@ -34,7 +34,7 @@ export class BallPass {
     context.fillRect(0, 0, width, height);
     if (scenery.value) drawValues(context, to, scenery.value, this.scene.ground, colours, 0.9);
     else this.grid(context, width, height, colours);
-    drawRegions(context, to, this.scene, this.propositions, scenery);
+    drawRegions(context, to, this.scene, this.propositions, { ...scenery, busy: scenery.value !== null });
     if (layers.has('paths')) drawEarlier(context, to, scenery.earlier, this.ball.position, colours.accent);
   }
 

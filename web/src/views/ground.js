@@ -89,7 +89,7 @@ function mean(points) {
  * @param {Projection} to
  * @param {Scene} scene
  * @param {import('../protocol.js').Proposition[]} propositions
- * @param {Scenery} scenery
+ * @param {Scenery & { busy?: boolean }} scenery  busy: the ground behind has colours of its own
  */
 export function drawRegions(context, to, scene, propositions, scenery) {
   const { colours, layers } = scenery;
@@ -100,14 +100,20 @@ export function drawRegions(context, to, scene, propositions, scenery) {
     const tint = hazard ? colours.unsafe : colours.regions[region.proposition % colours.regions.length];
     trace(context, to, region, scene.ground);
     context.fillStyle = tint;
-    context.globalAlpha = holds ? 0.5 : 0.18;
+    context.globalAlpha = holds ? 0.6 : scenery.busy && !hazard ? 0.34 : 0.18;
     context.fill('evenodd');
     context.globalAlpha = 1;
-    if (hazard) hatch(context, tint);
-    if (region.shape.kind === 'cells') continue;
+    // A border of the paper's colour under the line, where the ground is not paper.
+    if (scenery.busy && !hazard) {
+      context.lineWidth = 4.5;
+      context.strokeStyle = colours.surface;
+      context.stroke();
+    }
     context.lineWidth = holds ? 3 : 1.5;
     context.strokeStyle = tint;
-    context.stroke();
+    if (region.shape.kind !== 'cells') context.stroke();
+    // Last: it takes the path.
+    if (hazard) hatch(context, tint);
   }
   if (layers.has('labels')) drawNames(context, to, scene, propositions, colours);
 }
@@ -130,17 +136,20 @@ function drawNames(context, to, scene, propositions, colours) {
   });
 }
 
-/** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {string} name @param {Colours} colours */
+/** A name on a tag of its own, to be read on any ground. @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {string} name @param {Colours} colours */
 export function nameTag(context, x, y, name, colours) {
-  context.font = '500 13px "IBM Plex Mono", ui-monospace, monospace';
+  context.font = '500 12px "IBM Plex Mono", ui-monospace, monospace';
   context.textAlign = 'center';
   context.textBaseline = 'middle';
-  context.lineWidth = 4;
-  context.lineJoin = 'round';
-  context.strokeStyle = colours.paper;
-  context.strokeText(name, x, y);
+  const width = context.measureText(name).width + 10;
+  context.beginPath();
+  context.roundRect(x - width / 2, y - 9, width, 18, 5);
+  context.fillStyle = colours.surface;
+  context.globalAlpha = 0.88;
+  context.fill();
+  context.globalAlpha = 1;
   context.fillStyle = colours.ink;
-  context.fillText(name, x, y);
+  context.fillText(name, x, y + 0.5);
 }
 
 /** Slanted lines inside the path that was traced last. @param {CanvasRenderingContext2D} context @param {string} tint */
@@ -149,7 +158,7 @@ export function hatch(context, tint) {
   context.clip('evenodd');
   context.strokeStyle = tint;
   context.lineWidth = 1;
-  context.globalAlpha = 0.6;
+  context.globalAlpha = 0.55;
   const { width, height } = context.canvas;
   context.beginPath();
   for (let x = -height; x < width; x += 8) {

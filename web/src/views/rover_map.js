@@ -48,7 +48,7 @@ export class RoverMap {
     context.fillRect(0, 0, width, height);
     if (this.picture && this.pictured) context.drawImage(this.picture, 0, 0, width, height);
     if (scenery.value) drawValues(context, to, scenery.value, this.scene.ground, colours, this.pictured ? 0.72 : 0.9);
-    drawRegions(context, to, this.scene, this.propositions, scenery);
+    drawRegions(context, to, this.scene, this.propositions, { ...scenery, busy: this.pictured || scenery.value !== null });
     if (layers.has('paths')) drawEarlier(context, to, scenery.earlier, this.rover.position, this.pictured ? WAY.line : colours.accent);
     this.scaleBar(context, to, width, height);
   }

@@ -84,6 +84,8 @@ export class Spec {
     this.openedHoa = '';
     this.turn = 0;
     this.timer = 0;
+    /** Who hears of texts that were checked, and whether they are what they should be. @type {{ formula: (text: string, sound: boolean) => void, hoa: (text: string, sound: boolean) => void }[]} */
+    this.hearers = [];
     const { task, preset, formula, mirror, apply, hoa, hoaApply, hoaOwn, hoaSave, hoaFile, hoaPanel } = places;
     task.addEventListener('change', () => actions.chooseTask(task.value));
     preset.addEventListener('change', () => actions.choosePreset(preset.value));
@@ -112,6 +114,17 @@ export class Spec {
       body.classList.remove('over');
       this.readFile(event.dataTransfer?.files[0]);
     });
+  }
+
+  /** @param {Spec['hearers'][0]} hearer */
+  on(hearer) {
+    this.hearers.push(hearer);
+  }
+
+  /** Marks doubts that were found after the text was read. @param {{ start: number, end: number, message: string }[]} doubts */
+  doubt(doubts) {
+    const whole = this.places.formula.value.length;
+    this.mark(doubts.filter((d) => d.end - d.start < whole).map((d) => ({ start: d.start, end: d.end, gentle: true })));
   }
 
   /** @param {() => void} act */
@@ -165,6 +178,7 @@ export class Spec {
       if (verdict.ok) this.sayFormula(verdict.facts);
       else this.refuse(verdict.error);
       apply.disabled = !verdict.ok || text === this.opened;
+      for (const hearer of this.hearers) hearer.formula(text, verdict.ok);
     } catch (error) {
       if (turn === this.turn) this.refuse({ message: String(error), hint: '', field: '', start: 0, end: 0, line: 0, column: 0 });
     }
@@ -211,6 +225,7 @@ export class Spec {
       const verdict = await this.actions.checkHoa(text);
       if (turn !== this.turn) return;
       hoaApply.disabled = !verdict.ok || text === this.openedHoa;
+      for (const hearer of this.hearers) hearer.hoa(text, verdict.ok);
       if (!verdict.ok) return this.refuseHoa(verdict.error);
       const { states, sets, propositions } = verdict.facts;
       this.sayHoa(`${states} states, ${sets} accepting ${sets === 1 ? 'set' : 'sets'}, propositions ${propositions.join(', ') || '(none)'}`);
