@@ -179,6 +179,11 @@ export class App {
 
   // --- the session --------------------------------------------------------------------------------------------------------
 
+  /** What a state asks the core to open. @param {State} state @returns {Promise<import('./protocol.js').OpenRequest>} */
+  async requestOf({ task, formula, hoa, map, seed, preset, set }) {
+    return { task, formula: formula || null, hoa: hoa || null, map: map ? await this.shelf.textOf(map) : null, seed, preset: preset || null, overrides: set };
+  }
+
   /**
    * Opens a task; whether it stands. A refusal is shown at the field that caused it and the present session stays.
    * @param {State} next
@@ -186,10 +191,9 @@ export class App {
    * @param {(error: Error) => void} [tell]  what a refusal is told to; else it is shown
    */
   async open(next, first = false, tell) {
-    const { task, formula, hoa, seed, preset, set } = next;
+    const { task, formula, seed } = next;
     try {
-      const map = next.map ? await this.shelf.textOf(next.map) : null;
-      const request = { task, formula: formula || null, hoa: hoa || null, map, seed, preset: preset || null, overrides: set };
+      const request = await this.requestOf(next);
       const { generation, description } = await this.client.ask({ kind: 'open', request });
       this.state = next;
       this.opened(generation, description);

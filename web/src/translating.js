@@ -52,9 +52,10 @@ class Translating {
     app.spec.on({ formula: (text, sound) => this.formula(text, sound), hoa: (text, sound) => this.hoa(text, sound) });
   }
 
-  get environment() {
-    const { task } = this.app.state;
-    return { task, map: /** @type {{ map?: string }} */ (this.app.state).map || null };
+  /** The open environment, by which propositions are judged. */
+  async environment() {
+    const { task, map } = await this.app.requestOf(this.app.state);
+    return { task, map };
   }
 
   /** Ends the preview: the automaton of the open session stands again. */
@@ -75,7 +76,7 @@ class Translating {
     if (own && document.activeElement !== byId('formula', HTMLInputElement)) return;
     const mine = own ? this.turn : turn;
     this.facts.classList.add('busy');
-    const verdict = await this.client.translate(this.environment, text);
+    const verdict = await this.client.translate(await this.environment(), text);
     if (!verdict || mine !== this.turn) return;
     this.facts.classList.remove('busy');
     if (!verdict.ok) {
@@ -110,7 +111,7 @@ class Translating {
     this.compared.replaceChildren();
     if (!sound) return;
     const formula = byId('formula', HTMLInputElement).value;
-    const verdict = await this.client.compare(this.environment, formula, text);
+    const verdict = await this.client.compare(await this.environment(), formula, text);
     if (!verdict || turn !== this.turn) return;
     if (!verdict.ok) return setText(this.compared, verdict.error.message);
     const { equal, words, word, accepted, sentence } = verdict.facts;

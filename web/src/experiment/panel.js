@@ -145,8 +145,8 @@ export class Experiment {
     if (!description || chosen.length === 0) return notice('Choose at least one variant.', true);
     // The main session rests meanwhile: the machine's cores are few.
     if (this.app.training) this.app.toggleTraining();
-    const { task, formula, hoa, seed, preset, set } = state;
-    const request = { task, formula: formula || null, hoa: hoa || null, seed, preset: preset || null, overrides: set };
+    const request = await this.app.requestOf(state);
+    const { seed } = request;
     const steps = Number(this.steps.value);
     const seeds = Array.from({ length: Number(this.seeds.value) }, (_, k) => seed + k);
     this.close();

@@ -18,8 +18,22 @@ const PLACE = '\u25CF';
 /** A label in the signs of logic. @param {string} label */
 export const logical = (label) => label.replaceAll('!', '¬').replaceAll('&', '∧').replaceAll('|', '∨').replace(/^true$/, '⊤');
 
+/** A graph with more edges than this has no room for their labels. */
+const DENSE = 60;
 /** A label longer than this is broken. */
 const LONG = 13;
+
+/**
+ * A long label in short: of a conjunction what holds, the rest as dots.
+ * @param {string} label  in the signs of logic
+ */
+export function inShort(label) {
+  if (label.length <= SHORT || label.includes('∨')) return label;
+  const holds = label.split(' ∧ ').filter((literal) => !literal.startsWith('¬'));
+  return holds.length > 0 ? `${holds.join(' ∧ ')} …` : 'none of them';
+}
+/** The longest label that is said whole. */
+const SHORT = 28;
 
 /** Long labels are broken at their disjunctions, and longer ones at their conjunctions too. @param {string} label */
 function broken(label) {
@@ -33,8 +47,11 @@ function broken(label) {
  * @param {'LR' | 'TB'} direction
  */
 export function toDot(graph, direction) {
+  const dense = graph.edges.length > DENSE;
   const lines = [
     'digraph {',
+    // Many edges: on a circle, without labels; the edge that is taken is named beside the drawing.
+    ...(dense ? ['layout=circo; mindist=0.9;'] : []),
     `rankdir=${direction}; bgcolor=transparent; nodesep=0.4; ranksep=0.45; margin=0.05;`,
     'node [shape=circle, fontname="Courier", fontsize=13, width=0.5, fixedsize=true];',
     'edge [fontname="Courier", fontsize=12, arrowsize=0.7];',
@@ -49,11 +66,11 @@ export function toDot(graph, direction) {
   graph.edges.forEach((edge, k) => {
     if (!graph.states[edge.from].reachable) return;
     const own = ownMarks(graph, edge);
-    const label = broken(logical(edge.label)) + (own.length > 0 ? ` ${PLACE.repeat(own.length)}` : '');
+    const label = dense ? '' : broken(logical(edge.label)) + (own.length > 0 ? ` ${PLACE.repeat(own.length)}` : '');
     const jump = edge.kind === 'epsilon';
     const classes = [jump ? 'epsilon' : '', graph.states[edge.to].sink ? 'to-sink' : ''].filter(Boolean).join(' ');
     // Blanks around a label keep it off its edge.
-    lines.push(`${edge.from} -> ${edge.to} [id="e${k}", class=${quote(classes)}, label=${quote(` ${label} `)}${jump ? ', style=dashed' : ''}];`);
+    lines.push(`${edge.from} -> ${edge.to} [id="e${k}", class=${quote(classes)}, label=${quote(` ${label} `)}${dense ? `, tooltip=${quote(logical(edge.label))}, arrowsize=0.5` : ''}${jump ? ', style=dashed' : ''}];`);
   });
   lines.push('}');
   return lines.join('\n');
@@ -212,7 +229,7 @@ export class Automaton {
       this.mark(`e${this.edge}`, `e${edge}`, 'last');
       this.edge = edge;
       const taken = this.graph?.edges[edge];
-      setText(this.now, taken ? `${stateName(taken.from)} → ${stateName(taken.to)} on ${logical(taken.label)}` : `in ${stateName(q)}`);
+      setText(this.now, taken ? `${stateName(taken.from)} → ${stateName(taken.to)} on ${inShort(logical(taken.label))}` : `in ${stateName(q)}`);
     }
   }
 

@@ -15,6 +15,8 @@ const CHARTS = Object.freeze([
   { quantity: 'rounds', title: 'Rounds', tint: '--set-2', unit: 'per episode' },
   { quantity: 'success', title: 'Success', tint: '--set-3', unit: 'share of episodes' },
 ]);
+/** What stands in place of the curves before there are any. */
+const EMPTY = 'Each automaton state has an actor and a critic of its own. Press Train and they learn from scratch, here in your browser: each finished episode adds a point to four curves, and the world beside shows the policy as it gets better.';
 /** How many modules' losses are drawn. */
 const LOSSES = 14;
 /** Dashes that tell the lines of modules apart beside their colours. */
@@ -44,6 +46,8 @@ export class Curves {
     root.append(this.lossRoot, this.note);
     this.watcher = new ResizeObserver(() => this.fit());
     this.watcher.observe(root);
+    root.classList.add('empty');
+    setText(this.note, EMPTY);
     this.fit();
   }
 
@@ -86,7 +90,8 @@ export class Curves {
       plot.setData([data.episode, data[quantity]]);
       setText(value, n > 0 ? brief(data[quantity][n - 1]) : '–');
     }
-    setText(this.note, n === 0 ? 'Press Train: each finished episode adds a point.' : data.every > 1 ? `Each point is the mean of ${data.every} episodes.` : 'Each point is one episode.');
+    this.root.classList.toggle('empty', n === 0);
+    setText(this.note, n === 0 ? EMPTY : data.every > 1 ? `Each point is the mean of ${data.every} episodes.` : 'Each point is one episode.');
   }
 
   /** The curves as comma-separated values with a heading. */

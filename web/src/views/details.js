@@ -14,6 +14,13 @@ function table(heads, rows) {
     element('tbody', {}, ...rows.map((cells) => element('tr', {}, ...cells.map((c) => element('td', {}, c))))));
 }
 
+/** A number with a bar beneath it. @param {number} part  0 … 1 @param {string} text */
+function bar(part, text) {
+  const fill = element('i');
+  fill.style.width = `${Math.round(part * 100)}%`;
+  return element('span', { className: 'barred' }, text, element('span', { className: 'bar-track', 'aria-hidden': 'true' }, fill));
+}
+
 export class Modules {
   /** @param {HTMLElement} root */
   constructor(root) {
@@ -23,10 +30,12 @@ export class Modules {
 
   /** @param {ModuleStatistics[]} modules */
   update(modules) {
-    const rows = modules.map((m) => [m.name, count(m.visits), `${Math.round((100 * m.replay) / Math.max(1, m.capacity))} %`, count(m.updates), brief(m.critic), brief(m.actor)]);
-    const text = JSON.stringify(rows);
+    const full = (/** @type {ModuleStatistics} */ m) => Math.round((100 * m.replay) / Math.max(1, m.capacity));
+    const text = JSON.stringify(modules);
     if (text === this.last) return;
     this.last = text;
+    const most = Math.max(1, ...modules.map((m) => m.visits));
+    const rows = modules.map((m) => [m.name, bar(m.visits / most, count(m.visits)), bar(full(m) / 100, `${full(m)} %`), count(m.updates), brief(m.critic), brief(m.actor)]);
     this.root.replaceChildren(table(['module', 'visits', 'replay', 'updates', 'critic', 'actor'], rows));
   }
 }

@@ -11,6 +11,7 @@ import { shapePath } from '../palette.js';
 /** @typedef {import('./stage.js').Scenery} Scenery */
 /** @typedef {ReturnType<typeof projection>} Projection */
 
+const DARK = '#1d0f08';
 /** Of a proposition with more regions than this the name stands once, in their middle. */
 const NAMED_EACH = 1;
 /** How many earlier runs are drawn, the oldest faintest. */
@@ -97,10 +98,11 @@ export function drawRegions(context, to, scene, propositions, scenery) {
     const hazard = isHazard(scene, propositions, region.proposition);
     if (!layers.has(hazard ? 'unsafe' : 'labels')) continue;
     const holds = scenery.holds(region.proposition);
-    const tint = hazard ? colours.unsafe : colours.regions[region.proposition % colours.regions.length];
+    // On a ground with colours of its own the hazard is dark, in every theme.
+    const tint = hazard ? (scenery.busy ? DARK : colours.unsafe) : colours.regions[region.proposition % colours.regions.length];
     trace(context, to, region, scene.ground);
     context.fillStyle = tint;
-    context.globalAlpha = holds ? 0.6 : scenery.busy && !hazard ? 0.34 : 0.18;
+    context.globalAlpha = holds ? 0.6 : scenery.busy ? 0.34 : 0.18;
     context.fill('evenodd');
     context.globalAlpha = 1;
     // A border of the paper's colour under the line, where the ground is not paper.

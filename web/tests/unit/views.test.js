@@ -84,7 +84,7 @@ test('the graph in DOT quotes what it is given and keeps ids, sets and sinks apa
   assert.match(dot, /tooltip="say \\"G\\"\\\\"/);
   assert.match(dot, /0 \[id="q0", class="state accepting".*doublecircle/);
   assert.match(dot, /1 \[id="q1", class="state sink"/);
-  assert.match(dot, /label=" ¬\\"x\\" ∨ true ∧ a "/);
+  assert.match(dot, /label=" ¬\\"x\\" ∨\ntrue ∧ a "/);
   assert.match(dot, /1 -> 0 \[id="e1".*label=" ⊤ ● "/, 'the set that the state carries is not repeated on the edge');
   assert.match(dot, /0 -> 0 \[id="e2", class="epsilon", label=" ε ", style=dashed/);
   assert.doesNotMatch(dot, /^2 /m, 'what cannot be reached is not drawn');
