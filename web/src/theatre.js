@@ -156,6 +156,7 @@ export class Theatre {
   refresh() {
     this.shownRow = -1;
     this.liveIsNew = this.live !== null;
+    if (this.mode === 'drive' && this.reader && this.recorder.frames.length > 0) this.show(this.reader);
   }
 
   /** A frame of training. @param {number} generation @param {Float32Array} data */
