@@ -3,6 +3,7 @@
 // the app hear its signals.
 
 import { Client, Refused } from './client.js';
+import { startWorker } from './early.js';
 import { byId, count, forgetColours, offer, setText } from './dom.js';
 import { notice } from './keeping.js';
 import { tellProblems } from './link.js';
@@ -31,6 +32,10 @@ const $ = {
   any: (/** @type {string} */ id) => byId(id, HTMLElement),
 };
 
+/** The trained policy of a task. @param {string} task @returns {Promise<Uint8Array | null>} */
+const fetchPolicy = (task) => fetch(`assets/policies/${encodeURIComponent(task)}.safetensors`)
+  .then(async (answer) => (answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null)).catch(() => null);
+
 export class App {
   /** @param {State} state @param {import('./maps/shelf.js').Shelf} shelf  the maps that the state has keys of */
   constructor(state, shelf) {
@@ -47,9 +52,11 @@ export class App {
     this.training = false;
     /** The tasks on offer. @type {import('./protocol.js').TaskEntry[]} */
     this.tasks = [];
+    /** The policy of the first task, on its way. @type {{ task: string, bytes: Promise<Uint8Array | null> } | null} */
+    this.hastened = null;
     /** The tasks that a trained policy comes for. @type {string[]} */
     this.policies = [];
-    this.client = new Client(() => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }), this.listeners());
+    this.client = new Client(startWorker, this.listeners());
     this.theatre = new Theatre((command) => this.ask(command), this.signals);
     this.spec = this.makeSpec();
     this.controls = this.makeControls();
@@ -161,6 +168,7 @@ export class App {
     };
     requestAnimationFrame(paint);
     const listed = fetch('policies.json').then((r) => r.json()).catch(() => []);
+    this.hasten(listed);
     try {
       this.tasks = await this.client.ready;
       this.policies = await listed;
@@ -175,6 +183,12 @@ export class App {
     await this.open(this.state, true);
     this.curves = new Curves($.any('curves'), await loadPlot());
     if (this.points) this.curves.update(this.points, this.description?.modules);
+  }
+
+  /** Fetches the trained policy of the first task while its session is being opened. @param {Promise<string[]>} listed */
+  async hasten(listed) {
+    const { task } = this.state;
+    if ((await listed).includes(task)) this.hastened = { task, bytes: fetchPolicy(task) };
   }
 
   // --- the session --------------------------------------------------------------------------------------------------------
@@ -268,9 +282,9 @@ export class App {
     const { task, formula, hoa, map } = this.state;
     if (formula || hoa || map || !this.policies.includes(task)) return false;
     try {
-      const answer = await fetch(`assets/policies/${task}.safetensors`);
-      if (!answer.ok || mine !== this.generation) return false;
-      const { generation, fits } = await this.client.ask({ kind: 'load_policy', bytes: new Uint8Array(await answer.arrayBuffer()) });
+      const bytes = await (this.hastened?.task === task ? this.hastened.bytes : fetchPolicy(task));
+      if (!bytes || mine !== this.generation) return false;
+      const { generation, fits } = await this.client.ask({ kind: 'load_policy', bytes });
       return fits && generation === mine;
     } catch {
       return false; // without it the page shows the present policy
