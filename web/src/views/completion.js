@@ -59,7 +59,7 @@ export class Completion {
         event.preventDefault();
         event.stopImmediatePropagation();
       }
-    });
+    }, { capture: true });
   }
 
   /** @param {Proposition[]} propositions */

@@ -99,7 +99,7 @@ test('an automaton that is pasted is equal to the formula, or a word shows where
   await page.waitForFunction(() => /Equal to the formula on all [\d,]+ words/.test(document.getElementById('hoa-compared')?.textContent ?? ''));
   await page.fill('#hoa', 'HOA: v1 States: 2 Start: 0 AP: 1 "r1" acc-name: Buchi Acceptance: 1 Inf(0) --BODY-- State: 0 [!0] 0 [0] 1 State: 1 [t] 1 {0} --END--');
   await page.waitForFunction(() => /Different from the formula.*accepts it, the formula is false/.test(document.getElementById('hoa-compared')?.textContent ?? ''));
-  assert.ok(await page.locator('#hoa-compared .letter').count() >= 2);
+  assert.ok(await page.locator('#hoa-compared .letter').count() >= 1);
   assert.equal(await page.locator('#hoa-compared .cycle').count(), 1);
   assert.deepEqual(problems, []);
   await context.close();
