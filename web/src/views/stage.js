@@ -86,6 +86,8 @@ export class Stage {
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(canvas);
     this.painter.whenLoaded?.(() => this.refresh());
+    // Names that were drawn before their font had come.
+    document.fonts.ready.then(() => this.refresh());
     this.resize();
     canvas.setAttribute('aria-label', `${description.task.title}: the environment, drawn`);
   }
