@@ -166,7 +166,7 @@ test('with the server gone the page is opened again, trains and paints maps', as
     await other.stop();
     await page.reload();
     await page.waitForSelector('#automaton svg .node.current');
-    await page.waitForSelector('#curves canvas');
+    await page.waitForSelector('#curves canvas', { state: 'attached' });
     await page.click('#paint-map');
     await page.waitForSelector('#painter[open] .brush');
     await page.keyboard.press('Escape');

@@ -19,7 +19,7 @@ for (const size of /** @type {const} */ (['wide', 'phone'])) {
     test(`the page stands at ${SIZES[size].width} px in ${colours}: nothing overflows, nothing fails, axe finds nothing`, async () => {
       const { page, context, problems } = await visit(site, { size, colours });
       await page.click('#hoa-panel summary');
-      await page.waitForSelector('#curves canvas');
+      await page.waitForSelector('#curves canvas', { state: 'attached' });
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(width <= SIZES[size].width, `the page is ${width} px wide`);
       await page.evaluate(axe);
@@ -215,7 +215,7 @@ test('offline after the first visit: the page, its libraries and training', asyn
   await context.setOffline(true);
   await page.reload();
   await page.waitForSelector('#automaton svg .node.current');
-  await page.waitForSelector('#curves canvas');
+  await page.waitForSelector('#curves canvas', { state: 'attached' });
   await page.click('#train');
   await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent?.replaceAll(',', '')) > 50);
   assert.deepEqual(problems.filter((p) => !p.includes('ERR_INTERNET_DISCONNECTED')), []);

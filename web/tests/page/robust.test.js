@@ -130,7 +130,7 @@ for (const missing of ['WebAssembly', 'Worker']) {
 
 test('live regions do not chatter while an episode plays and training goes on', async () => {
   const { page, context } = await visit(site, { hash: `#${LIGHT}` });
-  await page.waitForSelector('#curves canvas');
+  await page.waitForSelector('#curves canvas', { state: 'attached' });
   await page.evaluate(() => {
     const heard = /** @type {string[]} */ ((/** @type {any} */ (globalThis)).heard = []);
     for (const region of document.querySelectorAll('[aria-live]:not([aria-live=off]), [role=status], [role=alert], [role=log], output')) {
