@@ -17,7 +17,7 @@ try {
   await page.reload({ waitUntil: 'commit' });
   await page.waitForFunction(() => /^[1-9]\d*\//.test(document.getElementById('clock')?.textContent ?? ''), undefined, { polling: 'raf' });
   console.log(`first movement ${Date.now() - began} ms after opening`);
-  await page.waitForSelector('#curves canvas');
+  await page.waitForSelector('#curves canvas', { state: 'attached' });
   const inspector = await context.newCDPSession(page);
   await inspector.send('Performance.enable');
   const count = (/** @type {string} */ id) => page.$eval(`#${id}`, (node) => Number((node.textContent ?? '').replace(/[^\d.]/g, '')));
