@@ -198,9 +198,14 @@ export class WordBench {
       const position = reading.positions[row];
       if (position < 0) continue;
       reader.at(reading.data, row);
-      setText(states[position], stateName(reader.number('q')));
+      const q = stateName(reader.number('q'));
+      if (reader.number('epsilon') >= 0) {
+        setText(states[position], `${states[position].textContent}⇢${q}`);
+        continue;
+      }
+      setText(states[position], q);
       const reward = reader.number('reward');
-      if (reader.number('epsilon') < 0) setText(paid[position], Math.abs(reward) < 1e-9 ? '0' : brief(reward));
+      setText(paid[position], Math.abs(reward) < 1e-9 ? '0' : brief(reward));
     }
     const here = reading.positions[this.row];
     this.table.querySelectorAll('tr').forEach((tr) => [...tr.children].forEach((td, k) => {
