@@ -17,7 +17,11 @@ export class Superseded extends Error {}
 /** How long a policy that comes with the page may take to load, in milliseconds. */
 const PATIENCE = 15_000;
 
-const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+/** The next frame of the screen; of a page that is not seen, which has none, a moment later. */
+const nextFrame = () => new Promise((resolve) => {
+  requestAnimationFrame(resolve);
+  setTimeout(resolve, 250);
+});
 
 /** What of a state makes another session. @param {State} state */
 const session = ({ task, formula, hoa, seed, preset, set }) => JSON.stringify([task, formula, hoa, seed, preset, set]);

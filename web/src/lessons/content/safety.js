@@ -37,7 +37,7 @@ export const safety = {
       experiment: { kind: 'episode', state: { task: 'cart_pole_c1', watch: 'policy', speed: 1 } },
       bears: ({ ended }) => (ended ? 1 : 0),
       key: 1,
-      why: 'The pole falls within a second or two. The end by the time limit is something else: the run is cut there, not over, and values are carried on past it.',
+      why: 'The pole falls within a second. The end by the time limit is something else: the run is cut there, not over, and values are carried on past it.',
     },
     {
       try: 'Hold the pole up yourself with the arrow keys and try to reach a band. Slow motion helps.',
