@@ -33,12 +33,13 @@ if (typeof WebAssembly !== 'object' || typeof Worker !== 'function') {
     for (const wire of [wireChrome, wireKeys, wireLink, wireLayers, wireKept, wireValues, wireTranslating, wireExperiment]) wire(app);
     wireFiles(app, wireMaps(app, store));
     const keeper = new Keeper(app, store);
+    keeper.idle = lessons?.inLesson ?? false;
     wireKeptRuns(keeper, store);
     app.lastCheckpoint = () => keeper.last();
     await lessons?.wireLessons(app);
     byId('lessons-open', HTMLButtonElement).addEventListener('click', async () => (await import('./lessons/menu.js')).openMenu());
     tellProblems(problems);
-    app.start().then(() => (lessons?.inLesson ? undefined : keeper.offer()));
+    app.start().then(() => (keeper.idle ? undefined : keeper.offer()));
   }
   if ('serviceWorker' in navigator) navigator.serviceWorker.register('service_worker.js').catch(() => {});
 }

@@ -47,6 +47,8 @@ export class Keeper {
     /** Whether it was said that there is no room. */
     this.complained = false;
     this.timer = 0;
+    /** Whether nothing is kept: the runs of a lesson are not the user's own. */
+    this.idle = false;
     /** Called when what is kept has changed. */
     this.changed = () => {};
     app.signals.on('opened', (description) => {
@@ -86,7 +88,7 @@ export class Keeper {
   async keepNow() {
     const { app, key, cadence } = this;
     const { description, state } = app;
-    if (!description || this.steps === 0) return;
+    if (this.idle || !description || this.steps === 0) return;
     const began = performance.now();
     let exact = this.samples <= MAX_SAMPLES;
     let kept = await app.client.ask({ kind: 'keep', form: exact ? 'whole' : 'small' });
