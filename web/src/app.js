@@ -252,7 +252,10 @@ export class App {
     const { where } = error;
     if (where.field === 'formula' && next.formula) this.spec.refuse(where);
     else if (where.field === 'hoa' && next.hoa) this.spec.refuseHoa(where);
-    else notice(error.message + (where.hint ? ` (${where.hint})` : ''), true);
+    else {
+      const place = where.field === 'task' && next.task.includes('\n') && where.line > 0 ? `Task file, line ${where.line}, column ${where.column}: ` : '';
+      notice(place + error.message + (where.hint ? ` (${where.hint})` : ''), true);
+    }
   }
 
   /** @param {number} generation @param {Description} description */

@@ -13,7 +13,7 @@ import { NoRoom } from './store.js';
 /** @typedef {import('./store.js').Store} Store */
 
 /** More samples than this are not kept: their checkpoint would be too large to be written while one waits. */
-const MAX_SAMPLES = 400_000;
+const MAX_SAMPLES = 1_000_000;
 /** The largest checkpoint that is kept, in bytes. */
 const MAX_SIZE = 64 << 20;
 /** How long a run rests before it is kept, in milliseconds. */
