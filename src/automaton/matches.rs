@@ -89,11 +89,11 @@ pub fn matches(automaton: &Ldgba, formula: &Formula, budget: WordBudget) -> Resu
     matches_where(automaton, formula, budget, &[])
 }
 
-/// As [`matches`], on words in which at most one proposition of each of the groups `exclusive` holds at a time, such as regions that do not
+/// As [`matches()`], on words in which at most one proposition of each of the groups `exclusive` holds at a time, such as regions that do not
 /// overlap. A group may have names that neither automaton nor formula has; groups do not share a name.
 ///
 /// # Errors
-/// As [`matches`].
+/// As [`matches()`].
 pub fn matches_where(
     automaton: &Ldgba,
     formula: &Formula,
