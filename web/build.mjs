@@ -11,7 +11,7 @@ import { cp, mkdir, readFile, readdir, rename, rm, stat, writeFile } from 'node:
 import { dirname, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs, promisify } from 'node:util';
-import { gzipSync } from 'node:zlib';
+import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
 import { bakeDrawings } from './bake.mjs';
 import { initialState } from './src/state.js';
 
@@ -112,7 +112,13 @@ const sizes = [];
 for (const file of files) {
   const bytes = await readFile(join(out, file));
   hash.update(file).update(bytes);
-  const small = gzipSync(bytes, { level: 9 }).length;
+  // The large ones are packed as well as can be, beside them: that takes too long for a server to do when it is asked.
+  let small = gzipSync(bytes, { level: 9 }).length;
+  if (/\.(wasm|js)$/.test(file) && bytes.length > 1e6) {
+    const best = brotliCompressSync(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length } });
+    await writeFile(join(out, `${file}.br`), best);
+    small = best.length;
+  }
   whole += bytes.length;
   packed += small;
   sizes.push({ file, packed: small });

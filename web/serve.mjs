@@ -57,7 +57,12 @@ export function server(root) {
       }
       let body = /** @type {Buffer<ArrayBuffer>} */ (await readFile(file));
       const more = type === '.html' ? { 'Content-Security-Policy': policy(body.toString()), 'Referrer-Policy': 'no-referrer' } : {};
-      if (PACKED.has(type) && /\bgzip\b/.test(String(request.headers['accept-encoding']))) {
+      // What the build packed already.
+      const best = PACKED.has(type) && /\bbr\b/.test(String(request.headers['accept-encoding'])) ? await readFile(`${file}.br`).catch(() => null) : null;
+      if (best) {
+        body = best;
+        Object.assign(headers, { 'Content-Encoding': 'br' });
+      } else if (PACKED.has(type) && /\bgzip\b/.test(String(request.headers['accept-encoding']))) {
         const known = packed.get(file);
         const fresh = known?.time === facts.mtimeMs ? known.body : gzipSync(body);
         packed.set(file, { time: facts.mtimeMs, body: fresh });
