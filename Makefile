@@ -49,8 +49,8 @@ test-rust: ## logic, in debug
 	@$(ENV) cargo test
 
 .PHONY: test-learning
-test-learning: ## kernels against burn, learning, and the examples, in release
-	@$(ENV) cargo test --profile quick --features burn --test kernels --test learning --test epsilon_learning --test python
+test-learning: ## kernels against burn, learning, thousands of translations, and the examples, optimised
+	@$(ENV) cargo test --profile quick --features burn --test kernels --test learning --test epsilon_learning --test python --test translate
 	@$(ENV) for example in own_environment train_a_task; do cargo run --quiet --profile quick --features burn --example $$example; done
 
 .PHONY: test-wasm
@@ -76,6 +76,13 @@ bench: ## speed of the kernels, native and WebAssembly, as ratios in one run
 .PHONY: measure
 measure: page ## first movement, frames a second and memory of the page over ten minutes of training
 	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node measure.mjs
+
+.PHONY: bench-translate
+bench-translate: ## sizes and times of translations, native and WebAssembly (SETS="FILE …" for formulas of your own)
+	@$(ENV) cargo build --quiet --release --no-default-features --features cli
+	@$(ENV) with_wasm cargo build --quiet --release --no-default-features --target wasm32-unknown-unknown --example translate_wasm
+	@$(ENV) $$CARGO_TARGET_DIR/release/ltl-rover bench translate $(foreach set,$(SETS),--set $(set)) $(ARGS) \
+	  --wasm $$CARGO_TARGET_DIR/wasm32-unknown-unknown/release/examples/translate_wasm.wasm
 
 .PHONY: bench-peers
 bench-peers: ## the same work in PyTorch and Stable-Baselines3, from PyPI (large)

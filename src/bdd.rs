@@ -74,6 +74,8 @@ pub struct Manager {
     /// Steps of recursion that are left, and were allowed.
     steps: u64,
     max_steps: u64,
+    /// Steps below which the present part of the work ends.
+    floor: u64,
     /// Supports already found.
     supports: RefCell<Supports>,
     /// Results of the present replacement: per node, the replacement's number and the result.
@@ -106,6 +108,7 @@ impl Manager {
             limit,
             steps: max_steps,
             max_steps,
+            floor: 0,
             supports: RefCell::default(),
             replaced: Vec::new(),
             replacement: 0,
@@ -113,8 +116,21 @@ impl Manager {
     }
 
     fn step(&mut self) -> Result<(), Exhausted> {
-        self.steps = self.steps.checked_sub(1).ok_or(Exhausted::Steps { limit: self.max_steps })?;
+        if self.steps <= self.floor {
+            return Err(Exhausted::Steps { limit: self.max_steps });
+        }
+        self.steps -= 1;
         Ok(())
+    }
+
+    /// Allows the work that follows, until this is called again, at most `steps` steps of those that are left.
+    pub fn allow_steps(&mut self, steps: u64) {
+        self.floor = self.steps.saturating_sub(steps);
+    }
+
+    /// How many steps of recursion were taken.
+    pub fn steps_taken(&self) -> u64 {
+        self.max_steps - self.steps
     }
 
     /// How many nodes there are.
@@ -359,8 +375,9 @@ impl Manager {
             }
             self.unique[place] = index as u32;
         }
-        if self.cache.len() < size * 2 {
-            self.cache = vec![(Bdd::FALSE, Bdd::FALSE, Bdd::FALSE, Bdd::FALSE); size * 2];
+        // More places would help little and cost time: they are all written when they are made.
+        if self.cache.len() < size / 2 {
+            self.cache = vec![(Bdd::FALSE, Bdd::FALSE, Bdd::FALSE, Bdd::FALSE); size / 2];
         }
     }
 }
@@ -378,6 +395,11 @@ impl Substitution {
         if self.values.insert(variable, value).is_some_and(|old| old != value) {
             self.memo.clear();
         }
+    }
+
+    /// Whether nothing is replaced.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
     }
 
     /// Whether `variable` is replaced.

@@ -58,3 +58,20 @@ fn products_walk_the_recorded_paths() {
     let recorded = [(3, 0xfe43_198a_5786_dae6), (0, 0xdb25_b48c_7713_22da), (0, 0x22fa_bfad_94ae_c99d)];
     assert_eq!(found, recorded, "{found:#x?}");
 }
+
+/// The same formula gives the same bytes on every target.
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
+#[cfg_attr(not(target_arch = "wasm32"), test)]
+fn formulas_give_the_recorded_automata() {
+    use ltl_rover::automaton::translate::{Acceptance, TranslateOptions, translate};
+    use ltl_rover::ltl::families;
+    let hash = |text: &str, start: u64| text.bytes().fold(start, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+    let found = [Acceptance::Transition, Acceptance::State].map(|acceptance| {
+        let options = TranslateOptions { acceptance, ..TranslateOptions::default() };
+        families::all().into_iter().flat_map(|family| family.formulas).fold(0xcbf2_9ce4_8422_2325, |sum, formula| {
+            let automaton = translate(&formula, &options).expect("the families are within the budget");
+            hash(&hoa::write(&automaton, &hoa::WriteOptions::default()).expect("they are small"), sum)
+        })
+    });
+    assert_eq!(found, [0x2371_a80f_ff7c_f53c, 0x3853_d08b_b5a7_513e], "{found:#x?}");
+}

@@ -1,6 +1,6 @@
 //! From loose parts to a valid automaton: every invariant of [`Ldgba`] is checked, or established, here and nowhere else.
 
-use super::cover::tiles;
+use super::cover::fill;
 use super::guard::{Effort, Guard, TooComplex};
 use super::ldgba::{Edge, Ldgba, Marks, StateId};
 use super::ldgba_error::LdgbaError;
@@ -68,13 +68,15 @@ impl Ldgba {
             let complex = |cause| LdgbaError::Complex { state, cause };
             let list = merge(list, sets, effort).map_err(complex)?;
             let all = Guard(list.iter().flat_map(|(guard, _)| guard.0.iter().copied()).collect());
-            if !tiles(&all.0, propositions.len(), effort).map_err(complex)? {
+            let missing = all.missing(effort).map_err(complex)?;
+            let rest = if missing.is_some() { all.complement(effort).map_err(complex)? } else { Guard::never() };
+            if !fill(&[&all.0, &rest.0], propositions.len()) {
                 check_disjoint(state, &list, effort)?;
             }
-            if let Some(letter) = all.missing(effort).map_err(complex)? {
+            if let Some(letter) = missing {
                 match gaps {
                     Gaps::Refuse => return Err(LdgbaError::Incomplete { state, letter }),
-                    Gaps::Sink => holes.push((q, all.complement(effort).map_err(complex)?)),
+                    Gaps::Sink => holes.push((q, rest)),
                 }
             }
             lists.push(list);

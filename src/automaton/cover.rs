@@ -1,15 +1,26 @@
 //! Algorithms on covers, lists of cubes read as their union: complement, gaps, inclusion, minimisation.
 
 use super::guard::{Cube, Effort, Guard, TooComplex};
+use std::collections::HashSet;
 
 /// Without empty cubes and cubes that another one includes.
 pub(super) fn absorbed(mut cubes: Vec<Cube>, effort: &mut Effort) -> Result<Guard, TooComplex> {
     cubes.retain(|cube| !cube.is_empty());
-    cubes.sort_by_key(|cube| cube.support().count_ones());
+    let size = |cube: &Cube| cube.support().count_ones();
+    cubes.sort_by_key(size);
     let mut kept: Vec<Cube> = Vec::new();
+    // A cube can only be included in one with fewer literals, or in itself.
+    let mut seen = HashSet::new();
+    let mut shorter = 0;
     for cube in cubes {
-        effort.spend(kept.len() + 1)?;
-        if !kept.iter().any(|k| k.includes(cube)) {
+        if !seen.insert(cube) {
+            continue;
+        }
+        if kept.last().is_some_and(|last| size(last) < size(&cube)) {
+            shorter = kept.len();
+        }
+        effort.spend(shorter + 1)?;
+        if !kept[..shorter].iter().any(|k| k.includes(cube)) {
             kept.push(cube);
         }
     }
@@ -22,21 +33,41 @@ fn cofactor(cubes: &[Cube], index: u32, value: bool) -> Vec<Cube> {
     cubes.iter().filter(|cube| !conflicts(cube)).map(|cube| cube.without(index)).collect()
 }
 
-/// Whether `cubes` cut the letters over `propositions` propositions into pieces: every letter is in exactly one of them. Their sizes
-/// add up to that of the alphabet, and nothing is missing. Much cheaper than comparing all pairs.
+/// Whether `cubes` cut the letters over `propositions` propositions into pieces: every letter is in exactly one of them. Much cheaper than
+/// comparing all pairs.
 pub(super) fn tiles(cubes: &[Cube], propositions: usize, effort: &mut Effort) -> Result<bool, TooComplex> {
-    let size = |cube: &Cube| 1u128 << propositions.saturating_sub(cube.support().count_ones() as usize);
-    Ok(cubes.iter().map(size).sum::<u128>() == 1 << propositions && missing(cubes, effort)?.is_none())
+    Ok(fill(&[cubes], propositions) && missing(cubes, effort)?.is_none())
 }
 
-/// The proposition to split on: the one that most cubes speak of, those of both signs first.
+/// Whether the sizes of the cubes add up to that of the alphabet. If they cover all letters, they are then disjoint.
+pub(super) fn fill(lists: &[&[Cube]], propositions: usize) -> bool {
+    let size = |cube: &Cube| 1u128 << propositions.saturating_sub(cube.support().count_ones() as usize);
+    lists.iter().flat_map(|cubes| cubes.iter()).map(size).sum::<u128>() == 1 << propositions
+}
+
+/// The proposition to split on, and whether any occurs with both signs: one that all cubes speak of, or else the one that most do, those of
+/// both signs first.
 fn split_index(cubes: &[Cube]) -> Option<(u32, bool)> {
+    let none = Cube { positive: 0, negative: 0 };
+    let union =
+        cubes.iter().fold(none, |all, c| Cube { positive: all.positive | c.positive, negative: all.negative | c.negative });
+    let everywhere = cubes.iter().fold(u64::MAX, |all, cube| all & cube.support()) & union.support();
+    let both = everywhere & union.positive & union.negative;
+    if everywhere != 0 {
+        let index = if both != 0 { both } else { everywhere }.trailing_zeros();
+        return Some((index, union.positive & union.negative != 0));
+    }
     let mut counts = [(0u32, 0u32); 64];
+    let bits = |mut mask: u64| {
+        std::iter::from_fn(move || {
+            let index = mask.trailing_zeros();
+            mask &= mask.wrapping_sub(1);
+            (index < 64).then_some(index as usize)
+        })
+    };
     for cube in cubes {
-        for (index, (p, n)) in counts.iter_mut().enumerate() {
-            *p += (cube.positive >> index & 1) as u32;
-            *n += (cube.negative >> index & 1) as u32;
-        }
+        bits(cube.positive).for_each(|i| counts[i].0 += 1);
+        bits(cube.negative).for_each(|i| counts[i].1 += 1);
     }
     let (index, (p, n)) = counts.into_iter().enumerate().max_by_key(|(_, (p, n))| ((*p).min(*n) > 0, p + n))?;
     (p + n > 0).then_some((index as u32, p > 0 && n > 0))

@@ -19,6 +19,7 @@ mod matches;
 mod scc;
 mod state_based;
 mod statistics;
+mod symbolic;
 pub mod translate;
 mod trim;
 mod within;

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::output::out;
 use crate::automaton::hoa::{self, AcceptanceForm, EpsilonForm, WriteOptions};
-use crate::automaton::translate::{Acceptance, Budget, TranslateOptions, translate_unless};
+use crate::automaton::translate::{Acceptance, Budget, Preference, Spent, TranslateOptions, translate_counting};
 use crate::automaton::{Ldgba, Letters};
 use crate::ltl::{Formula, Note};
 use clap::{Args, ValueEnum};
@@ -31,6 +31,9 @@ pub struct Translate {
     /// Put acceptance on states instead of edges.
     #[arg(long)]
     pub state_based: bool,
+    /// Prefer an automaton without ε-jumps, even if it has more states.
+    #[arg(long)]
+    pub deterministic: bool,
     /// Propositions of which at most one holds at a time, such as regions that do not overlap. May be given several times.
     #[arg(long, value_name = "A,B,…")]
     pub exclusive: Vec<String>,
@@ -103,6 +106,7 @@ impl Translate {
         let options = TranslateOptions {
             acceptance: if self.state_based { Acceptance::State } else { Acceptance::Transition },
             exclusive: self.exclusive.iter().map(|group| names(group)).collect(),
+            prefer: if self.deterministic { Preference::Deterministic } else { Preference::Smallest },
             budget: Budget { states: self.max_states, ..Budget::default() },
             ..TranslateOptions::default()
         };
@@ -111,11 +115,11 @@ impl Translate {
                 eprintln!("{place}: note: --exclusive names `{name}`, which the formula does not have");
             }
         }
-        let (automaton, taken) =
+        let (automaton, spent, taken) =
             timed(&formula, &options, self.timeout).map_err(|error| Failure::running(format!("{place}: {error}")))?;
         if self.stats {
             let summary = super::check::summary(&automaton.statistics());
-            eprintln!("{place}: {formula}: {summary}, {:.1} ms", taken.as_secs_f64() * 1e3);
+            eprintln!("{place}: {formula}: {summary}, {} nodes of diagrams, {:.1} ms", spent.nodes, taken.as_secs_f64() * 1e3);
         }
         out!("{}", self.written(&formula, &automaton, taken)?);
         Ok(())
@@ -143,15 +147,15 @@ impl Translate {
     }
 }
 
-/// Translates within `seconds`.
-pub(super) fn timed(
+/// Translates within `seconds`; the automaton, what was spent of the budget, and the time taken.
+fn timed(
     formula: &Formula,
     options: &TranslateOptions,
     seconds: f64,
-) -> Result<(Ldgba, Duration), crate::automaton::translate::TranslateError> {
+) -> Result<(Ldgba, Spent, Duration), crate::automaton::translate::TranslateError> {
     let start = Instant::now();
-    let automaton = translate_unless(formula, options, &|| start.elapsed().as_secs_f64() > seconds)?;
-    Ok((automaton, start.elapsed()))
+    let (automaton, spent) = translate_counting(formula, options, &|| start.elapsed().as_secs_f64() > seconds)?;
+    Ok((automaton, spent, start.elapsed()))
 }
 
 /// The formula in `text`, with the remarks on it.

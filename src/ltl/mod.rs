@@ -7,6 +7,7 @@
 mod ast;
 pub mod class;
 mod error;
+pub mod families;
 pub mod implication;
 mod lasso;
 mod lexer;

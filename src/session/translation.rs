@@ -106,8 +106,12 @@ pub struct TranslationFacts {
     pub warnings: Vec<Warning>,
 }
 
-/// How much work a translation while typing may cost: about a tenth of a second in a browser.
-const BUDGET: Budget = Budget { states: 4_000, nodes: 100_000, steps: 500_000, guesses: 8 };
+/// How much work a translation while typing may cost: about 75 ms in a browser.
+const BUDGET: Budget = Budget { states: 2_000, nodes: 60_000, steps: 200_000, guesses: 8 };
+/// The same for each of the two translations by which a formula is classified.
+const CLASS_BUDGET: Budget = Budget { states: 1_000, nodes: 40_000, steps: 80_000, guesses: 7 };
+/// Larger automata are not classified: comparing them takes time that grows with the square.
+const MOST_EDGES: usize = 5_000;
 /// Words on which a pasted automaton is held against the formula.
 const WORDS: WordBudget = WordBudget { exhaustive: 500, random: 200, seed: 0 };
 /// How many starts are tried.
@@ -195,10 +199,9 @@ impl Translator {
         for note in &reading.notes {
             warnings.at(Doubt::Notation, note.span.in_utf16(text), note.message.clone());
         }
-        let found = wanted
-            .classify
-            .then(|| classify(formula, &TranslateOptions { budget: BUDGET, ..TranslateOptions::default() }, &|| false));
-        let found = found.and_then(Result::ok);
+        let classify_it = wanted.classify && automaton.statistics().edges <= MOST_EDGES;
+        let plain = TranslateOptions { budget: CLASS_BUDGET, ..TranslateOptions::default() };
+        let found = if classify_it { classify(formula, &plain, &|| false).ok() } else { None };
         let empty = automaton.is_sink(automaton.initial());
         if found.as_ref().map_or(empty && exclusive.is_empty(), |found| !found.satisfiable) {
             warnings.add(Doubt::Unsatisfiable, "nothing can satisfy this formula: it contradicts itself".into());

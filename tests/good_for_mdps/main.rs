@@ -5,7 +5,7 @@ mod safra;
 mod tableau;
 
 use ltl_rover::automaton::hoa::{self, EpsilonForm, WriteOptions};
-use ltl_rover::automaton::translate::{TranslateOptions, translate};
+use ltl_rover::automaton::translate::{Construction, TranslateOptions, translate};
 use ltl_rover::finite::{Interval, Mdp, maximal_probability};
 use ltl_rover::labels::{Labels, Propositions};
 use ltl_rover::ltl::{BinaryOperator, Formula, UnaryOperator};
@@ -71,14 +71,22 @@ struct Tally {
 }
 
 fn compare(formula: &Formula, mdps: usize, tally: &mut Tally, rng: &mut Rng) {
-    let Ok(automaton) = translate(formula, &TranslateOptions::default()) else { return };
+    compare_by(Construction::All, formula, mdps, tally, rng);
+}
+
+fn by(construction: Construction) -> TranslateOptions {
+    TranslateOptions { construction, ..TranslateOptions::default() }
+}
+
+fn compare_by(construction: Construction, formula: &Formula, mdps: usize, tally: &mut Tally, rng: &mut Rng) {
+    let Ok(automaton) = translate(formula, &by(construction)) else { return };
     for _ in 0..mdps {
         let mdp = random_mdp(rng);
         let Some(expected) = reference(formula, &mdp) else { return };
         let named = maximal_probability(&mdp, &automaton, PRECISION).unwrap();
         assert!(
             (named.middle() - expected.middle()).abs() < 1e-6,
-            "{formula}: {named:?} by the automaton, {expected:?} by the deterministic route\n{mdp:?}\n{}",
+            "{construction:?}, {formula}: {named:?} by the automaton, {expected:?} by the deterministic route\n{mdp:?}\n{}",
             automaton.dot()
         );
         tally.compared += 1;
@@ -103,26 +111,74 @@ fn random_formulas_lose_no_probability() {
 fn formulas_that_need_jumps_lose_no_probability() {
     let mut rng = Rng::new(2, Purpose::Tool);
     let mut tally = Tally::default();
-    for text in [
-        "F G a",
-        "F (a & G b)",
-        "F G a | F G b",
-        "F G a & G F b",
-        "a & X (F G a | F G b)",
-        "F (a & X G (a | b))",
-        "F G (a | X b)",
-        "(F G a) | (G F b)",
-        "F (G a | G b)",
-        "F (b & F G a)",
-        "G F a -> G F b",
-        "F G (a -> X b) | G F (a & b)",
-        "(a U G b) | F G a",
-        "F (a & X (b U G a))",
-    ] {
+    for text in WITH_JUMPS {
         compare(&Formula::parse(text).unwrap(), 30, &mut tally, &mut rng);
     }
     println!("{tally:?}");
     assert!(tally.compared >= 400 && tally.with_jumps >= 300 && tally.strictly_between >= 20, "{tally:?}");
+}
+
+/// Formulas whose smallest automaton needs jumps.
+const WITH_JUMPS: [&str; 14] = [
+    "F G a",
+    "F (a & G b)",
+    "F G a | F G b",
+    "F G a & G F b",
+    "a & X (F G a | F G b)",
+    "F (a & X G (a | b))",
+    "F G (a | X b)",
+    "(F G a) | (G F b)",
+    "F (G a | G b)",
+    "F (b & F G a)",
+    "G F a -> G F b",
+    "F G (a -> X b) | G F (a & b)",
+    "(a U G b) | F G a",
+    "F (a & X (b U G a))",
+];
+
+/// Each construction by itself, not only where its result is the smallest.
+#[test]
+fn no_construction_loses_probability() {
+    for construction in [Construction::Symmetric, Construction::Split, Construction::Asymmetric] {
+        let mut rng = Rng::new(4, Purpose::Tool);
+        let mut tally = Tally::default();
+        for text in WITH_JUMPS {
+            compare_by(construction, &Formula::parse(text).unwrap(), 12, &mut tally, &mut rng);
+        }
+        for text in [
+            "F G ((a W b) | X !a)",
+            "F G ((a W b) | (b W X a))",
+            "F (G (a | X b) | G (b | X a))",
+            "G F a & F (G b | G (a W X b))",
+        ] {
+            compare_by(construction, &Formula::parse(text).unwrap(), 20, &mut tally, &mut rng);
+        }
+        for _ in 0..60 {
+            // What must hold from some time on is where guesses are made.
+            let inner = random_formula(1 + rng.below(5), &mut rng);
+            let formula = Formula::unary(UnaryOperator::Finally, Formula::unary(UnaryOperator::Globally, inner));
+            compare_by(construction, &formula, 4, &mut tally, &mut rng);
+        }
+        println!("{construction:?}: {tally:?}");
+        assert!(tally.compared >= 350 && tally.with_jumps >= 150, "{construction:?}: {tally:?}");
+    }
+}
+
+/// A chain that never stops: at odd times it decides about `b` or `d`, at even times about `f` or `h`, and between them `a`, `c` or `e`, `g` hold. One
+/// who must say beforehand how the next decision but one falls is wrong half of the time.
+#[test]
+fn nothing_is_guessed_that_hangs_on_chance() {
+    let names = Propositions::new(["a", "b", "c", "d", "e", "f", "g", "h"]).unwrap();
+    let letter = |text: &str| text.chars().fold(Labels(0), |sigma, c| sigma.with(c as usize - 'a' as usize, true));
+    let labels = ["egb", "egd", "acf", "ach"].map(letter).to_vec();
+    let (even, odd) = (vec![(0, 0.5), (1, 0.5)], vec![(2, 0.5), (3, 0.5)]);
+    let mdp = Mdp::new(names, 0, labels, vec![vec![odd.clone()], vec![odd], vec![even.clone()], vec![even]]).unwrap();
+    let formula = Formula::parse("F G ((a W b | c W d) & (e W f | g W h))").unwrap();
+    for construction in [Construction::All, Construction::Symmetric, Construction::Split, Construction::Asymmetric] {
+        let automaton = translate(&formula, &by(construction)).unwrap();
+        let value = maximal_probability(&mdp, &automaton, PRECISION).unwrap();
+        assert!(value.middle() > 1.0 - 1e-6, "{construction:?}: {value:?}");
+    }
 }
 
 #[test]

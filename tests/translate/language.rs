@@ -1,10 +1,11 @@
 //! The automaton accepts exactly the words that satisfy the formula.
 
-use super::words::{all, difference, random};
+use super::words::{LENGTH, all, difference, random};
 use ltl_rover::automaton::Ldgba;
-use ltl_rover::automaton::translate::{Acceptance, TranslateOptions, translate};
+use ltl_rover::automaton::translate::{Acceptance, Construction, TranslateOptions, translate};
 use ltl_rover::ltl::{BinaryOperator as B, Formula, UnaryOperator as U};
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use std::path::Path;
 
 /// Formulas over two propositions.
@@ -50,12 +51,16 @@ fn is_state_based(automaton: &Ldgba) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: if cfg!(debug_assertions) { 100 } else { 3000 },
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/translate/regressions.txt"))),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn of_random_formulas(formula in formulas(5, 12)) {
         let automaton = translate(&formula, &options(Acceptance::Transition)).unwrap();
-        prop_assert_eq!(difference(&automaton, &formula, all(2, 3).chain(random(2, 200, 1))), None, "{}", formula);
+        prop_assert_eq!(difference(&automaton, &formula, all(2, LENGTH).chain(random(2, 200, 1))), None, "{}", formula);
         let again = translate(&formula, &options(Acceptance::Transition)).unwrap();
         prop_assert_eq!(automaton, again, "not the same automaton twice");
     }
@@ -64,7 +69,7 @@ proptest! {
     fn with_acceptance_on_states(formula in formulas(4, 8)) {
         let automaton = translate(&formula, &options(Acceptance::State)).unwrap();
         prop_assert!(is_state_based(&automaton), "{}", formula);
-        prop_assert_eq!(difference(&automaton, &formula, all(2, 3).chain(random(2, 100, 2))), None, "{}", formula);
+        prop_assert_eq!(difference(&automaton, &formula, all(2, LENGTH).chain(random(2, 100, 2))), None, "{}", formula);
     }
 }
 
@@ -75,14 +80,45 @@ fn shared(file: &str) -> Option<Vec<Formula>> {
     Some(text.lines().filter(|line| !line.trim().is_empty()).map(|line| Formula::parse(line).unwrap()).collect())
 }
 
+/// Formulas on which a construction was wrong once, by each of them.
+#[test]
+fn of_formulas_that_were_wrong_once() {
+    for text in ["G F (F (c ^ G (a <-> (c <-> F c))) <-> G c M b)"] {
+        let formula = Formula::parse(text).unwrap();
+        for construction in [Construction::All, Construction::Symmetric, Construction::Split, Construction::Asymmetric] {
+            let automaton = translate(&formula, &TranslateOptions { construction, ..TranslateOptions::default() }).unwrap();
+            let words = all(3, 2).chain(random(3, 300, 6));
+            assert_eq!(difference(&automaton, &formula, words), None, "{formula}, {construction:?}");
+        }
+    }
+}
+
 #[test]
 fn of_collected_formulas() {
-    for file in ["dac-patterns", "eh-patterns", "hkrss-patterns", "p-patterns", "sb-patterns", "sejk-patterns"] {
-        for formula in shared(&format!("{file}.txt")).unwrap_or_default() {
+    let sets = [
+        "dac-patterns",
+        "eh-patterns",
+        "hkrss-patterns",
+        "p-patterns",
+        "sb-patterns",
+        "sejk-patterns",
+        "paper-tasks",
+        "parametrised",
+        "sejk-families",
+    ];
+    for (i, formula) in sets.iter().flat_map(|set| shared(&format!("{set}.txt")).unwrap_or_default()).enumerate() {
+        // The negation of twelve things that recur is beyond the budget.
+        let mut both = vec![formula.clone()];
+        if formula.propositions().len() <= 10 {
+            both.insert(0, formula.negated());
+        }
+        for formula in
+            both.into_iter().skip(if cfg!(debug_assertions) { i % 2 } else { 0 }).take(if cfg!(debug_assertions) { 1 } else { 2 })
+        {
             let automaton =
                 translate(&formula, &TranslateOptions::default()).unwrap_or_else(|error| panic!("{formula}: {error}"));
             let propositions = automaton.propositions().len();
-            let exhaustive = if propositions <= 2 { all(propositions, 4) } else { all(0, 0) };
+            let exhaustive = all(propositions, if propositions <= 2 { LENGTH } else { 0 });
             assert_eq!(difference(&automaton, &formula, exhaustive.chain(random(propositions, 40, 3))), None, "{formula}");
         }
     }

@@ -5,6 +5,9 @@ use ltl_rover::labels::Labels;
 use ltl_rover::ltl::{Evaluator, Formula, Lasso};
 use ltl_rover::rng::{Purpose, Rng};
 
+/// The length of words up to which all are tried; debug builds are slow.
+pub const LENGTH: usize = if cfg!(debug_assertions) { 3 } else { 5 };
+
 /// All words over `propositions` propositions with |u| + |v| ≤ `length`.
 pub fn all(propositions: usize, length: usize) -> impl Iterator<Item = Lasso> {
     let letters = 1u64 << propositions;

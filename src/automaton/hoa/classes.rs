@@ -3,6 +3,7 @@
 use super::super::cover::tiles;
 use super::super::guard::{Cube, Effort, Guard, TooComplex};
 use super::super::ldgba::Marks;
+use super::super::symbolic::Symbolic;
 use super::nba::NbaEdge;
 
 /// Letters that a state treats alike: no two edges of the class lead to the same state.
@@ -25,7 +26,7 @@ impl Class {
 
 /// The classes of a state with these edges; letters without an edge are in none.
 pub(super) fn classes(edges: &[NbaEdge], propositions: usize, effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
-    let merged = merge(edges.iter().map(|edge| (&edge.guard, (edge.target, edge.marks))));
+    let merged = merged(edges);
     let cubes: Vec<Cube> = merged.iter().flat_map(|(guard, _)| guard.0.iter().copied()).collect();
     if tiles(&cubes, propositions, effort)? || disjoint(&merged, effort)? {
         return Ok(merged.into_iter().map(|(guard, target)| Class { guard, targets: vec![target] }).collect());
@@ -36,54 +37,31 @@ pub(super) fn classes(edges: &[NbaEdge], propositions: usize, effort: &mut Effor
 
 /// Cuts overlapping classes into disjoint ones, each with the targets of all that had its letters.
 pub(super) fn refine(overlapping: Vec<Class>, effort: &mut Effort) -> Result<Vec<Class>, TooComplex> {
-    let mut done: Vec<Class> = Vec::new();
-    for edge in overlapping {
-        let mut rest = edge.guard.clone();
-        let mut outside = None;
-        for i in 0..done.len() {
-            if rest.0.is_empty() {
-                break;
-            }
-            let common = done[i].guard.and(&rest, effort)?;
-            if common.0.is_empty() {
-                continue;
-            }
-            let not_edge = match &outside {
-                Some(guard) => guard,
-                None => outside.insert(edge.guard.complement(effort)?),
-            };
-            let kept = done[i].guard.and(not_edge, effort)?;
-            rest = rest.and(&done[i].guard.complement(effort)?, effort)?;
-            if !kept.0.is_empty() {
-                let targets = done[i].targets.clone();
-                done.push(Class { guard: kept, targets });
-            }
-            done[i].guard = common;
-            for (target, marks) in &edge.targets {
-                done[i].add(*target, *marks);
-            }
+    let mut symbolic = Symbolic::new();
+    let sets = overlapping.iter().map(|class| symbolic.letters(&class.guard)).collect::<Result<Vec<_>, _>>()?;
+    let mut refined = Vec::new();
+    for (letters, members) in symbolic.classes(&sets, effort)? {
+        let mut class = Class { guard: symbolic.guard(letters, effort)?, targets: Vec::new() };
+        for (target, marks) in members.iter().flat_map(|member| &overlapping[*member].targets) {
+            class.add(*target, *marks);
         }
-        if !rest.0.is_empty() {
-            done.push(Class { guard: rest, targets: edge.targets });
-        }
-        if done.len() > Guard::MAX_CUBES {
-            return Err(TooComplex);
-        }
+        refined.push(class);
     }
-    Ok(done)
+    Ok(refined)
 }
 
-/// One guard per target, in the order of first appearance.
-fn merge<'a>(edges: impl Iterator<Item = (&'a Guard, (usize, Marks))>) -> Vec<(Guard, (usize, Marks))> {
+/// One guard per target and marks, in the order of first appearance.
+pub(super) fn merged(edges: &[NbaEdge]) -> Vec<(Guard, (usize, Marks))> {
     let mut merged: Vec<(Guard, (usize, Marks))> = Vec::new();
     let mut index = std::collections::HashMap::new();
-    for (guard, target) in edges {
+    for edge in edges {
+        let target = (edge.target, edge.marks);
         let position = *index.entry(target).or_insert_with(|| {
             merged.push((Guard::never(), target));
             merged.len() - 1
         });
         let cubes: &mut Vec<Cube> = &mut merged[position].0.0;
-        cubes.extend(guard.0.iter().copied());
+        cubes.extend(edge.guard.0.iter().copied());
     }
     merged
 }

@@ -7,19 +7,24 @@
 //! A node of the construction is such a set with the jumps that are offered *because of the last letter*; it would split a state
 //! into as many as there are ways to enter it. Two observations keep the states of the file:
 //!
-//! - A jump from `n` to `d` is *sound* at any time if every letter leads from `d` only to where it leads from `n` as well: what is
-//!   accepted after the jump is accepted without it. Sound jumps are offered on every visit of `n`, and need no split.
+//! - A jump from `n` to `d` is *sound* at any time if every letter leads from `d` only to where it leads from `n` as well, or from `n` to where
+//!   everything is accepted: what is accepted after the jump is accepted without it. Sound jumps are offered on every visit of `n`, and need no
+//!   split.
 //! - If the jumps of `n` are exactly those that sound ones stand for (the file was written by resolving ε-jumps), they are offered
 //!   *before* the letter, as in the automaton that was resolved, wherever offering them afterwards would split a state.
 
-use super::super::guard::{Effort, Guard, TooComplex};
+use super::super::guard::{Cube, Effort, Guard, TooComplex};
 use super::super::ldgba::Marks;
+use super::super::symbolic::Symbolic;
 use super::classes::{Class, refine};
 use super::limit::Partition;
+use crate::bdd::Bdd;
 use std::collections::{HashMap, HashSet};
 
 /// The largest number of states the construction may make.
 pub const MAX_NODES: usize = 10_000;
+/// From so many edges on, those of the same target are joined.
+const MANY: usize = 64;
 
 /// A node: states of Q_N that are tracked together, and Q_D-states offered because of the last letter. Both ascending. One state
 /// of Q_D alone is the node ({}, {d}).
@@ -53,8 +58,7 @@ struct Jumps<'a> {
 /// # Errors
 /// When that takes more than [`MAX_NODES`] states, or too much work.
 pub(super) fn resolve(part: &Partition, starts: &[usize], effort: &mut Effort) -> Result<Resolved, TooComplex> {
-    let mut jumps = Jumps::new(part, effort)?;
-    jumps.keep_early_only_where_needed();
+    let jumps = Jumps::new(part, effort)?;
     explore(&jumps, starts, effort)
 }
 
@@ -62,27 +66,28 @@ impl<'a> Jumps<'a> {
     fn new(part: &'a Partition, effort: &mut Effort) -> Result<Jumps<'a>, TooComplex> {
         let count = part.classes.len();
         let (mut given, mut closure) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        let (mut sound, mut early) = (vec![Vec::new(); count], vec![None; count]);
+        let mut sound = vec![Vec::new(); count];
         for n in (0..count).filter(|n| !part.deterministic[*n]) {
             (closure[n], given[n]) = closed(part, n);
             effort.spend(closure[n].len() + given[n].len())?;
             sound[n] = sound_jumps(part, n, effort)?;
-            early[n] = standing_for_all(part, n, &sound[n], effort)?;
         }
-        Ok(Jumps { part, given, closure, sound, early })
-    }
-
-    /// A state's jumps are taken before the letter only if offering them afterwards would split a successor.
-    fn keep_early_only_where_needed(&mut self) {
-        for n in 0..self.early.len() {
-            let splits = self.part.classes[n].iter().filter(|class| class.targets.len() > 1).any(|class| {
-                let (next, offered) = self.divide(class.targets.iter().map(|(target, _)| *target));
-                !offered.iter().all(|d| next.iter().any(|m| self.given[*m].contains(d) || self.sound[*m].contains(d)))
-            });
-            if !splits {
-                self.early[n] = None;
+        let mut jumps = Jumps { part, given, closure, sound, early: vec![None; count] };
+        // A state's jumps are taken before the letter only if offering them afterwards would split a successor.
+        for n in (0..count).filter(|n| !part.deterministic[*n]) {
+            if jumps.splits(n) {
+                jumps.early[n] = standing_for_all(part, n, &jumps.sound[n], effort)?;
             }
         }
+        Ok(jumps)
+    }
+
+    /// Whether offering the jumps of a state after the letter splits a successor.
+    fn splits(&self, n: usize) -> bool {
+        self.part.classes[n].iter().filter(|class| class.targets.len() > 1).any(|class| {
+            let (next, offered) = self.divide(class.targets.iter().map(|(target, _)| *target));
+            !offered.iter().all(|d| next.iter().any(|m| self.given[*m].contains(d) || self.sound[*m].contains(d)))
+        })
     }
 
     /// Targets of a letter as states of Q_N, ε-closed, and states of Q_D. Both ascending.
@@ -147,26 +152,23 @@ fn live_edges(part: &Partition, d: usize) -> impl Iterator<Item = (&Guard, usize
     part.classes[d].iter().map(|class| (&class.guard, class.targets[0].0)).filter(|(_, target)| part.live[*target])
 }
 
-/// The states d of Q_D for which every letter leads from d only to where it leads from `n` as well.
+/// The states d of Q_D for which every letter leads from d only to where it leads from `n` as well, or leads from `n` to where everything is
+/// accepted.
 fn sound_jumps(part: &Partition, n: usize, effort: &mut Effort) -> Result<Vec<usize>, TooComplex> {
-    let mut reach: HashMap<usize, Guard> = HashMap::new();
-    for class in &part.classes[n] {
-        for (target, _) in class.targets.iter().filter(|(target, _)| part.deterministic[*target]) {
-            reach.entry(*target).or_default().0.extend(class.guard.0.iter().copied());
-        }
-    }
     let mut sound = Vec::new();
+    let inside = part.reach[n].iter().filter(|(_, target)| part.deterministic[*target]);
+    let reach: HashMap<usize, &Guard> = inside.map(|(letters, target)| (*target, letters)).collect();
     if reach.is_empty() {
         return Ok(sound);
     }
+    let free = part.reach[n].iter().filter(|(_, target)| part.universal[*target]);
+    let free: Vec<Cube> = free.flat_map(|(letters, _)| letters.0.iter().copied()).collect();
     for d in (0..part.classes.len()).filter(|d| part.deterministic[*d] && part.live[*d]) {
         effort.spend(1)?;
         let mut fits = true;
         for (guard, target) in live_edges(part, d) {
-            fits = match reach.get(&target) {
-                Some(letters) => letters.includes(guard, effort)?,
-                None => false,
-            };
+            let own = reach.get(&target).map_or(&[][..], |letters| &letters.0);
+            fits = Guard([own, &free].concat()).includes(guard, effort)?;
             if !fits {
                 break;
             }
@@ -285,8 +287,27 @@ impl Explorer<'_, '_> {
                 edges.push((class.guard, self.arrive(next, offered)?, marks));
             }
         }
-        Ok(edges)
+        joined(edges, effort)
     }
+}
+
+/// Edges that differ in their letters only become one, if there are many of them.
+fn joined(edges: Vec<(Guard, usize, Marks)>, effort: &mut Effort) -> Result<Vec<(Guard, usize, Marks)>, TooComplex> {
+    if edges.len() < MANY {
+        return Ok(edges);
+    }
+    let mut symbolic = Symbolic::new();
+    let mut places: HashMap<(usize, Marks), usize> = HashMap::new();
+    let mut all: Vec<(Bdd, usize, Marks)> = Vec::new();
+    for (guard, node, marks) in edges {
+        let letters = symbolic.letters(&guard)?;
+        let place = *places.entry((node, marks)).or_insert(all.len());
+        match all.get_mut(place) {
+            Some((known, ..)) => *known = symbolic.or(*known, letters)?,
+            None => all.push((letters, node, marks)),
+        }
+    }
+    all.into_iter().map(|(letters, node, marks)| Ok((symbolic.guard(letters, effort)?, node, marks))).collect()
 }
 
 /// Builds the nodes that can be reached.

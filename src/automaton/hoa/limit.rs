@@ -1,13 +1,13 @@
 //! Which part of a non-deterministic automaton is deterministic in the limit, and whether that part has all accepting runs.
 
-use super::super::guard::Guard;
+use super::super::guard::{Effort, Guard, TooComplex};
 use super::super::ldgba::Marks;
 use super::super::scc::{can_reach, components};
 use super::check::Notes;
-use super::classes::{Class, classes};
+use super::classes::{Class, classes, merged};
 use super::error::{Fault, HoaErrorKind};
 use super::label::{Labeller, too_complex};
-use super::nba::Nba;
+use super::nba::{Nba, NbaState};
 use super::property::claims;
 use super::syntax::Document;
 use crate::labels::{Labels, Propositions};
@@ -16,6 +16,10 @@ use crate::labels::{Labels, Propositions};
 pub(super) struct Partition {
     /// Per state: its classes of letters.
     pub classes: Vec<Vec<Class>>,
+    /// Per state: its targets by letters, each once, with the letters that lead there.
+    pub reach: Vec<Vec<(Guard, usize)>>,
+    /// Per state: whether every word is accepted from it, as can be seen at once: all letters stay with states of the kind, by edges of all sets.
+    pub universal: Vec<bool>,
     /// Per state: targets of ε-jumps from which something is accepted.
     pub epsilon: Vec<Vec<usize>>,
     /// Per state: whether something is accepted from it.
@@ -38,7 +42,9 @@ pub(super) fn partition(nba: &Nba, document: &Document, labeller: &mut Labeller,
     let epsilon: Vec<Vec<usize>> = nba.states.iter().map(|state| state.epsilon.clone()).collect();
     let accepting = accepting(nba, &all, &successors(&all, &epsilon));
     let live = can_reach(&successors(&all, &epsilon), &accepting);
-    let mut part = Partition { classes: all, epsilon, live, deterministic: Vec::new() };
+    let universal = universal(nba, &all, &mut labeller.effort).map_err(too_complex(document.span))?;
+    let reach = nba.states.iter().map(reach).collect();
+    let mut part = Partition { classes: all, reach, universal, epsilon, live, deterministic: Vec::new() };
     part.prune();
 
     let after = successors(&part.classes, &part.epsilon);
@@ -76,6 +82,33 @@ impl Partition {
         let by_letter = self.classes[q].iter().find(|class| class.targets.len() > 1);
         let found = by_letter.map(|class| (class.guard.witness(), class.targets[0].0, class.targets[1].0));
         found.or_else(|| self.epsilon[q].first().map(|target| (None, q, *target)))
+    }
+}
+
+/// The targets of a state, each once, with the letters that lead there.
+fn reach(state: &NbaState) -> Vec<(Guard, usize)> {
+    let mut targets: Vec<(Guard, usize)> = Vec::new();
+    for (guard, (target, _)) in merged(&state.edges) {
+        match targets.iter_mut().find(|(_, known)| *known == target) {
+            Some((letters, _)) => letters.0.extend(guard.0),
+            None => targets.push((guard, target)),
+        }
+    }
+    targets
+}
+
+/// Per state, whether all letters lead, by edges of all sets, to such states.
+fn universal(nba: &Nba, classes: &[Vec<Class>], effort: &mut Effort) -> Result<Vec<bool>, TooComplex> {
+    let mut universal = Vec::with_capacity(classes.len());
+    for list in classes {
+        let all = list.iter().all(|class| class.targets.len() == 1 && class.targets[0].1 == nba.all_sets());
+        let letters = || Guard(list.iter().flat_map(|class| class.guard.0.iter().copied()).collect());
+        universal.push(all && letters().missing(effort)?.is_none());
+    }
+    loop {
+        let stays = |q: usize| classes[q].iter().all(|class| universal[class.targets[0].0]);
+        let Some(leaves) = (0..classes.len()).find(|q| universal[*q] && !stays(*q)) else { return Ok(universal) };
+        universal[leaves] = false;
     }
 }
 

@@ -45,13 +45,15 @@ pub(super) fn targets(
         for body in guesses.bodies(guess).1 {
             let body = guesses.as_co_safety(u, body, guess);
             let lasting = u.store.globally(body);
-            let lasting = u.simplifier.simplify(&mut u.store, lasting);
+            // Simplified, it may have left Π₂, which the breakpoint needs: `F a` becomes `G F a` within `G F`.
+            let simple = u.simplifier.simplify(&mut u.store, lasting);
+            let lasting = if u.store.traits(simple).pi <= 2 { simple } else { lasting };
             let parts = match u.store.node(lasting) {
                 Node::And(list) => list.to_vec(),
                 _ => vec![lasting],
             };
             for part in parts {
-                if layout == Layout::Joint || u.store.traits(part).is_safety() || u.store.traits(part).pi > 2 {
+                if layout == Layout::Joint || u.store.traits(part).is_safety() {
                     let part = u.unfold(part)?;
                     all = u.bdd.and(all, part)?;
                 } else {

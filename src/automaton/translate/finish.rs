@@ -44,7 +44,7 @@ pub(super) fn automaton(u: &mut Unfolding<'_>, graph: Graph, propositions: Propo
 
 /// A diagram over propositions as disjoint cubes, one for every path to `true`.
 fn guard(bdd: &mut Manager, f: Bdd, widened: &mut Substitution) -> Result<Guard, Exhausted> {
-    let f = bdd.substitute(f, widened)?;
+    let f = if widened.is_empty() { f } else { bdd.substitute(f, widened)? };
     let mut cubes = Vec::new();
     let mut open = vec![(f, Cube::ANY)];
     while let Some((g, cube)) = open.pop() {

@@ -13,6 +13,7 @@ use super::asymmetric::{self, Layout};
 use super::breakpoint::{Pair, Renewal, successors};
 use super::graph::{Arrow, Graph, MarkSet, Numbering, State, all_sets, merge_edges};
 use super::guess::Guesses;
+use super::options::Construction;
 use super::target::{Besides, Target, Together};
 use super::unfold::Unfolding;
 use super::work::Stop;
@@ -27,6 +28,17 @@ pub(super) enum Guess {
     Symmetric,
     Split,
     Asymmetric(Layout, Renewal),
+}
+
+impl Guess {
+    /// Whether this is a way that `construction` allows.
+    pub fn is_of(self, construction: Construction) -> bool {
+        match self {
+            Guess::Symmetric => matches!(construction, Construction::All | Construction::Symmetric),
+            Guess::Split => matches!(construction, Construction::All | Construction::Split),
+            Guess::Asymmetric(..) => matches!(construction, Construction::All | Construction::Asymmetric),
+        }
+    }
 }
 
 /// A state of the automaton.

@@ -26,5 +26,5 @@ mod translator;
 mod unfold;
 mod work;
 
-pub use options::{Acceptance, Budget, Preference, TranslateError, TranslateErrorKind, TranslateOptions};
-pub use translator::{translate, translate_unless};
+pub use options::{Acceptance, Budget, Construction, Preference, Spent, TranslateError, TranslateErrorKind, TranslateOptions};
+pub use translator::{translate, translate_counting, translate_unless};

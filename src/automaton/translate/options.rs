@@ -1,5 +1,6 @@
 //! What a user may ask of a translation, and how much work it may cost.
 
+use serde::Serialize;
 use std::fmt;
 
 /// Where acceptance is written.
@@ -23,6 +24,20 @@ pub enum Preference {
     Deterministic,
 }
 
+/// Which constructions are tried.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub enum Construction {
+    /// All that fit; the best result is kept.
+    #[default]
+    All,
+    /// Only jumps with symmetric guesses: which fixpoints recur, and which last.
+    Symmetric,
+    /// Only jumps with symmetric guesses cut into pieces.
+    Split,
+    /// Only jumps with asymmetric guesses: which greatest fixpoints hold from now on.
+    Asymmetric,
+}
+
 /// How much work a translation may cost. Translating LTL is doubly exponential in the worst case, so there is always a limit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Budget {
@@ -43,6 +58,17 @@ impl Default for Budget {
     }
 }
 
+/// How much work a translation took, in the units of the [`Budget`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Spent {
+    /// States that were made, those of discarded attempts included.
+    pub states: usize,
+    /// Nodes of decision diagrams.
+    pub nodes: usize,
+    /// Steps of recursion.
+    pub steps: u64,
+}
+
 /// What a user may ask of a translation.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TranslateOptions {
@@ -56,6 +82,8 @@ pub struct TranslateOptions {
     pub propositions: Vec<String>,
     /// Which of several automata is best.
     pub prefer: Preference,
+    /// Which constructions are tried: for study and for tests.
+    pub construction: Construction,
     /// How much work it may cost.
     pub budget: Budget,
 }

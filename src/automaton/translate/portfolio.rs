@@ -7,7 +7,7 @@ use super::asymmetric::Layout;
 use super::breakpoint::{Renewal, breakpoint};
 use super::graph::Graph;
 use super::limit::{Guess, limit_deterministic};
-use super::options::Preference;
+use super::options::{Construction, Preference};
 use super::pieces::{co_safety, product, recurrence, safety};
 use super::reduce::reduced;
 use super::target::{Together, recurring, trivial};
@@ -65,6 +65,11 @@ impl Best {
 
 /// About how many fixpoints an attempt may guess that competes with a result: each doubles the work, and rarely pays beyond this.
 const GUESSES_TO_COMPETE: usize = 7;
+/// How many steps on diagrams an attempt may take that competes with a result, and how many all of them together.
+const STEPS_TO_COMPETE: u64 = 80_000;
+const STEPS_OF_COMPETITION: u64 = 120_000;
+/// How many it may take while there is no result: more would be longer than the reader of a page likes to wait.
+const STEPS_TO_START: u64 = 120_000;
 
 /// How many states an attempt may make that competes with a result of `best` states.
 fn allowance(u: &Unfolding<'_>, best: &Best) -> usize {
@@ -78,7 +83,9 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
     u.focus = formula;
     let parts = conjuncts(u, formula);
     let (easy, hard): (Vec<NodeId>, Vec<NodeId>) = parts.iter().partition(|id| u.store.traits(**id).pi <= 2);
-    if hard.is_empty() {
+    if u.construction != Construction::All {
+        // Nothing but jumps.
+    } else if hard.is_empty() {
         u.work.start_attempt(u.work.budget().states, u.work.budget().guesses);
         let attempt = deterministic(u, &parts);
         best.offer(u, attempt)?;
@@ -106,30 +113,53 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
     }
     // Whether several recurrences that need memory stand beside one another: only then can a round robin be smaller.
     let mut has_memory = false;
-    for (guess, together) in [
-        (Guess::Symmetric, Together::Product),
-        (Guess::Split, Together::Product),
-        (Guess::Symmetric, Together::RoundRobin),
-        (Guess::Split, Together::RoundRobin),
-        (Guess::Asymmetric(Layout::Joint, Renewal::Raw), Together::Product),
-        (Guess::Asymmetric(Layout::Joint, Renewal::Unfolded), Together::Product),
-        (Guess::Asymmetric(Layout::Pieces, Renewal::Raw), Together::Product),
-        (Guess::Asymmetric(Layout::Pieces, Renewal::Unfolded), Together::Product),
-    ] {
-        if together == Together::RoundRobin && !has_memory {
-            continue;
+    // At first every attempt gets little; if none of them comes to an end with that, as much as there is.
+    for patience in [STEPS_TO_START, 8 * STEPS_TO_START, u64::MAX] {
+        best.stop = None;
+        let mut competition = STEPS_OF_COMPETITION;
+        for (guess, together) in GUESSES {
+            if !guess.is_of(u.construction) || together == Together::RoundRobin && !has_memory {
+                continue;
+            }
+            u.work.start_attempt(
+                allowance(u, &best),
+                if best.graph.is_none() { u.work.budget().guesses } else { GUESSES_TO_COMPETE },
+            );
+            let before = u.bdd.steps_taken();
+            let competes = best.graph.is_some();
+            u.bdd.allow_steps(match &best.graph {
+                Some(_) => STEPS_TO_COMPETE.min(competition),
+                None => patience,
+            });
+            let attempt = u.raw(formula).and_then(|raw| limit_deterministic(u, raw, guess, together));
+            let attempt = attempt.map(|(graph, memory)| {
+                has_memory |= memory;
+                graph
+            });
+            best.offer(u, attempt)?;
+            u.bdd.allow_steps(u64::MAX);
+            if competes {
+                competition = competition.saturating_sub(u.bdd.steps_taken() - before);
+            }
         }
-        let guesses = if best.graph.is_some() { GUESSES_TO_COMPETE } else { u.work.budget().guesses };
-        u.work.start_attempt(allowance(u, &best), guesses);
-        let attempt = u.raw(formula).and_then(|raw| limit_deterministic(u, raw, guess, together));
-        let attempt = attempt.map(|(graph, memory)| {
-            has_memory |= memory;
-            graph
-        });
-        best.offer(u, attempt)?;
+        if best.graph.is_some() {
+            break;
+        }
     }
     best.result(u)
 }
+
+/// The ways to guess, in the order in which they are tried.
+const GUESSES: [(Guess, Together); 8] = [
+    (Guess::Symmetric, Together::Product),
+    (Guess::Split, Together::Product),
+    (Guess::Symmetric, Together::RoundRobin),
+    (Guess::Split, Together::RoundRobin),
+    (Guess::Asymmetric(Layout::Joint, Renewal::Raw), Together::Product),
+    (Guess::Asymmetric(Layout::Joint, Renewal::Unfolded), Together::Product),
+    (Guess::Asymmetric(Layout::Pieces, Renewal::Raw), Together::Product),
+    (Guess::Asymmetric(Layout::Pieces, Renewal::Unfolded), Together::Product),
+];
 
 fn conjuncts(u: &Unfolding<'_>, formula: NodeId) -> Vec<NodeId> {
     match u.store.node(formula) {

@@ -1,8 +1,15 @@
-//! The symmetric guess cut into pieces: one jump for every minimal set of obligations that suffices.
+//! The symmetric guess cut into pieces: one jump for every choice of what is guessed to hold for ever.
 //!
-//! What the symmetric construction tracks is a monotone combination of atoms nx(ψ). A jump into one of its minimal clauses tracks less at a
-//! time, at the price of more jumps: `F G a | F G b` needs {G a}, {G b}, but not {G a, G b, G a | G b}. The union of the pieces is the whole, and
-//! one who jumps has seen as much as before.
+//! What the symmetric construction tracks is a monotone combination of atoms nx(ψ). A jump that guesses which of them hold tracks less at a
+//! time, at the price of more jumps: `F G a | F G b` needs {G a}, {G b}, but not {G a, G b, G a | G b}. The union of the pieces is the whole.
+//!
+//! Only *universal* atoms are guessed, those that hold of every suffix of a word of which they hold, such as `G a`. Whether `a W b` or `c W d`
+//! comes true may hang on a later chance, and one who must say which may lose. What is universal, however, is certain where it matters, so that
+//! the automaton is good for MDPs. Inside an end component that a policy does not leave, the states that a finite-memory policy visits for ever
+//! form an irreducible chain. There the event "ψ holds of some suffix" is invariant under shifts, so its probability is 0 or 1. The events "ψ
+//! holds from instant t on" grow with t and, started in the stationary distribution, all have the same probability: it is 0 or 1 too, and the
+//! same in each of these states. If the whole holds with probability 1, then so does it with the universal atoms of probability 1 set to `true`
+//! and the others to `false`: that is one of the pieces. `tests/good_for_mdps` checks this construction by itself.
 
 use super::breakpoint::Renewal;
 use super::guess::{Guesses, Scope};
@@ -11,7 +18,6 @@ use super::target::{Target, undominated};
 use super::unfold::Unfolding;
 use super::work::Stop;
 use crate::bdd::{Bdd, Variable};
-use std::collections::BTreeSet;
 
 /// The largest number of pieces of one jump.
 const MOST: usize = 64;
@@ -30,33 +36,58 @@ pub(super) fn targets(u: &mut Unfolding<'_>, guesses: &mut Guesses, b: Bdd) -> R
     undominated(u, found)
 }
 
-/// `all` as a disjunction, one disjunct for every minimal clause; `all` itself if there are too many.
+/// `all` as a disjunction, one disjunct for every set of universal atoms that is worth guessing; `all` itself if there are too many.
 fn pieces(u: &mut Unfolding<'_>, all: Bdd) -> Result<Vec<Bdd>, Stop> {
-    let mut clauses: BTreeSet<Vec<Variable>> = BTreeSet::new();
-    for &(_, leaf) in u.steps(all)?.iter() {
-        match u.minimal_clauses(leaf, MOST) {
-            Some(list) => clauses.extend(list),
-            None => return Ok(vec![all]),
-        }
-    }
-    if clauses.len() > MOST {
-        return Ok(vec![all]);
-    }
-    let atoms: Vec<Variable> = u.bdd.support(all).iter().copied().filter(|v| !u.is_proposition(*v)).collect();
-    let mut found = Vec::new();
-    for clause in clauses {
-        let mut chosen = Vec::new();
-        let mut piece = Bdd::TRUE;
-        for &atom in &atoms {
-            let is_chosen = clause.contains(&atom);
-            chosen.push((atom, if is_chosen { Bdd::TRUE } else { Bdd::FALSE }));
-            if is_chosen {
-                let literal = u.bdd.variable(atom)?;
-                piece = u.bdd.and(piece, literal)?;
+    // The atoms guessed to hold, and what is left of `all` with them set to `true` and the other universal ones to `false`.
+    let mut guesses: Vec<(Vec<Variable>, Bdd)> = vec![(Vec::new(), all)];
+    for atom in u.universal(all) {
+        let mut next: Vec<(Vec<Variable>, Bdd)> = Vec::new();
+        for (set, rest) in guesses {
+            let without = u.bdd.replace(rest, &[(atom, Bdd::FALSE)])?;
+            let with = u.bdd.replace(rest, &[(atom, Bdd::TRUE)])?;
+            let more = [&set[..], &[atom]].concat();
+            next.push((set, without));
+            if with != without {
+                next.push((more, with));
             }
         }
-        let now = u.bdd.replace(all, &chosen)?;
-        found.push(u.bdd.and(now, piece)?);
+        guesses = worthwhile(u, next)?;
+        if guesses.len() > MOST {
+            return Ok(vec![all]);
+        }
+    }
+    let mut found = Vec::new();
+    for (set, rest) in guesses {
+        let mut piece = rest;
+        for atom in set {
+            let literal = u.bdd.variable(atom)?;
+            piece = u.bdd.and(piece, literal)?;
+        }
+        found.push(piece);
     }
     Ok(found)
+}
+
+/// Leaves out guesses that cannot come true, and those that say no more than a smaller one where all their atoms ψ are certain: there ψ holds
+/// for the next letter as well as after it.
+fn worthwhile(u: &mut Unfolding<'_>, mut guesses: Vec<(Vec<Variable>, Bdd)>) -> Result<Vec<(Vec<Variable>, Bdd)>, Stop> {
+    guesses.retain(|(_, rest)| *rest != Bdd::FALSE);
+    guesses.sort_by_key(|(set, _)| set.len());
+    let mut kept: Vec<(Vec<Variable>, Bdd)> = Vec::new();
+    'next: for (set, rest) in guesses {
+        let mut certain = rest;
+        for &atom in &set {
+            let (now, later) = (u.unfolded(atom)?, u.bdd.variable(atom)?);
+            let both = u.bdd.and(now, later)?;
+            certain = u.bdd.and(certain, both)?;
+        }
+        u.work.tick(kept.len() + 1)?;
+        for (smaller, its_rest) in &kept {
+            if smaller.iter().all(|atom| set.contains(atom)) && u.bdd.implies(certain, *its_rest)? {
+                continue 'next;
+            }
+        }
+        kept.push((set, rest));
+    }
+    Ok(kept)
 }

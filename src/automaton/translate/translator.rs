@@ -1,7 +1,7 @@
 //! The door: from a formula and options to an automaton.
 
 use super::graph::Graph;
-use super::options::{Acceptance, TranslateError, TranslateErrorKind, TranslateOptions};
+use super::options::{Acceptance, Spent, TranslateError, TranslateErrorKind, TranslateOptions};
 use super::unfold::Unfolding;
 use super::work::{Stop, Work};
 use super::{exclusive, finish, portfolio, state_based};
@@ -29,6 +29,18 @@ pub fn translate_unless(
     options: &TranslateOptions,
     cancelled: &dyn Fn() -> bool,
 ) -> Result<Ldgba, TranslateError> {
+    translate_counting(formula, options, cancelled).map(|(automaton, _)| automaton)
+}
+
+/// As [`translate_unless`], and tells how much of the budget was spent.
+///
+/// # Errors
+/// As [`translate_unless`].
+pub fn translate_counting(
+    formula: &Formula,
+    options: &TranslateOptions,
+    cancelled: &dyn Fn() -> bool,
+) -> Result<(Ldgba, Spent), TranslateError> {
     let (names, mut u) = prepared(formula, options, cancelled)?;
     let root = u.store.insert(formula);
     let root = u.simplifier.simplify(&mut u.store, root);
@@ -38,7 +50,8 @@ pub fn translate_unless(
         Err(Stop::Cancelled) => return Err(explained(Stop::Cancelled, options)),
         Err(stop) => return Err(explained(stop, options).at(u.focused())),
     };
-    finish::automaton(&mut u, graph, names)
+    let automaton = finish::automaton(&mut u, graph, names)?;
+    Ok((automaton, Spent { states: u.work.states(), nodes: u.bdd.len(), steps: u.bdd.steps_taken() }))
 }
 
 fn state_based_if_wanted(u: &mut Unfolding<'_>, graph: Graph, acceptance: Acceptance) -> Result<Graph, Stop> {
@@ -67,6 +80,7 @@ fn prepared<'a>(
     u.letters = exclusive::letters(&mut u.bdd, &groups).map_err(|stop| explained(stop.into(), options))?;
     u.exclusive = groups;
     u.prefer = options.prefer;
+    u.construction = options.construction;
     Ok((alphabet, u))
 }
 

@@ -9,7 +9,7 @@
 //! af: definition 2.3 of [Esparza, Křetínský & Sickert](crate::bib::Esparza2020); unfolding: definition 6 of
 //! [Sickert et al.](crate::bib::Sickert2016).
 
-use super::options::Preference;
+use super::options::{Construction, Preference};
 use super::work::{Stop, Work};
 use crate::bdd::{Bdd, Manager, Memo, Substitution, Variable};
 use crate::ltl::simplify::Simplifier;
@@ -30,6 +30,8 @@ pub(super) struct Unfolding<'a> {
     pub letters: Bdd,
     /// Which of several automata is best.
     pub prefer: Preference,
+    /// Which constructions are tried.
+    pub construction: Construction,
     /// The subformula that is being translated, for error messages.
     pub focus: NodeId,
     /// Groups of propositions of which at most one holds.
@@ -61,6 +63,7 @@ impl<'a> Unfolding<'a> {
             work,
             letters: Bdd::TRUE,
             prefer: Preference::default(),
+            construction: Construction::default(),
             focus: NodeId::TRUE,
             exclusive: Vec::new(),
             propositions,
@@ -292,9 +295,16 @@ impl<'a> Unfolding<'a> {
         Some(if short.len() < text.len() { format!("{short} …") } else { short })
     }
 
-    /// Whether `variable` stands for a proposition.
-    pub fn is_proposition(&self, variable: Variable) -> bool {
-        variable < self.propositions
+    /// unf(ψ) for the variable nx(ψ).
+    pub fn unfolded(&mut self, variable: Variable) -> Result<Bdd, Stop> {
+        let atom = self.atom(variable);
+        self.unfold(atom)
+    }
+
+    /// The variables nx(ψ) of `f` with a universal ψ: one that holds of every suffix of a word of which it holds.
+    pub fn universal(&self, f: Bdd) -> Vec<Variable> {
+        let universal = |v: &Variable| *v >= self.propositions && self.store.traits(self.atom(*v)).universal;
+        self.bdd.support(f).iter().copied().filter(universal).collect()
     }
 
     /// The conjunction of states as text; empty if none of them is known as a formula.

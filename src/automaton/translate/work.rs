@@ -64,6 +64,11 @@ impl<'a> Work<'a> {
         self.guesses
     }
 
+    /// How many states were made.
+    pub fn states(&self) -> usize {
+        self.budget.states - self.states
+    }
+
     /// Counts one new state.
     pub fn state(&mut self) -> Result<(), Stop> {
         self.tick(8)?;

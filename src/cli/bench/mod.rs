@@ -3,12 +3,13 @@
 mod measure;
 mod node;
 mod report;
+mod translate;
 
 use super::failure::Failure;
 use crate::cli::output::{out, outln};
 use crate::nn::fused::Kernel;
 use crate::nn::workload::peak;
-use clap::Args;
+use clap::{Args, Subcommand};
 use measure::{Contender, Measure, Native};
 use report::Report;
 use std::path::PathBuf;
@@ -17,15 +18,22 @@ use std::time::Instant;
 
 /// Arguments of `bench`.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "Examples:
   ltl-rover bench
   ltl-rover bench --rounds 101 --json
   ltl-rover bench --wasm target/wasm32-unknown-unknown/release/examples/kernels_wasm.wasm
+  ltl-rover bench translate
 
 The contenders take turns, round after round, each for a few milliseconds; the table shows the median and the best round.
 The bound is the time that the matrix products of an update take at the measured rate of multiply-adds of one core.
-`make bench` builds everything that takes part: burn's two backends and the WebAssembly module.")]
+`make bench` builds everything that takes part: burn's two backends and the WebAssembly module."
+)]
 pub struct Bench {
+    /// Something else than the networks.
+    #[command(subcommand)]
+    what: Option<What>,
     /// Rounds; each contender computes every measure once in each.
     #[arg(long, default_value_t = 31, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -43,12 +51,22 @@ pub struct Bench {
     json: bool,
 }
 
+/// What can be measured beside the networks.
+#[derive(Subcommand, Debug)]
+enum What {
+    /// How small the automata of whole collections of formulas are, and how long it takes to make them.
+    Translate(translate::Translate),
+}
+
 impl Bench {
     /// Times everybody and prints the table.
     ///
     /// # Errors
     /// If the WebAssembly module cannot be run.
     pub fn run(&self) -> Result<ExitCode, Failure> {
+        if let Some(What::Translate(translate)) = &self.what {
+            return translate.run();
+        }
         let mut contenders: Vec<Box<dyn Contender>> = Vec::new();
         contenders.extend(Native::all().into_iter().map(|native| Box::new(native) as Box<dyn Contender>));
         if let Some(module) = &self.wasm {
