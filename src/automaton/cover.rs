@@ -19,7 +19,7 @@ pub(super) fn absorbed(mut cubes: Vec<Cube>, effort: &mut Effort) -> Result<Guar
         if kept.last().is_some_and(|last| size(last) < size(&cube)) {
             shorter = kept.len();
         }
-        effort.spend(shorter + 1)?;
+        effort.spend(shorter + 16)?;
         if !kept[..shorter].iter().any(|k| k.includes(cube)) {
             kept.push(cube);
         }
