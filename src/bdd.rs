@@ -5,8 +5,10 @@
 //! steps bound its space and its time.
 
 mod memo;
+mod substitution;
 
 pub use memo::{Memo, WordHasher};
+pub use substitution::Substitution;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -379,32 +381,6 @@ impl Manager {
         if self.cache.len() < size / 2 {
             self.cache = vec![(Bdd::FALSE, Bdd::FALSE, Bdd::FALSE, Bdd::FALSE); size / 2];
         }
-    }
-}
-
-/// What to put in the places of variables, for [`Manager::substitute`]. Remembers what it was applied to, so keep one that is used often.
-#[derive(Clone, Default)]
-pub struct Substitution {
-    values: Memo<Variable, Bdd>,
-    memo: Memo<Bdd, Bdd>,
-}
-
-impl Substitution {
-    /// From now on `variable` is replaced by `value`. Set it before a function that depends on it is substituted.
-    pub fn set(&mut self, variable: Variable, value: Bdd) {
-        if self.values.insert(variable, value).is_some_and(|old| old != value) {
-            self.memo.clear();
-        }
-    }
-
-    /// Whether nothing is replaced.
-    pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
-    }
-
-    /// Whether `variable` is replaced.
-    pub fn has(&self, variable: Variable) -> bool {
-        self.values.contains_key(&variable)
     }
 }
 
