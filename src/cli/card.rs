@@ -28,7 +28,10 @@ pub fn card(
     let automaton = setup.automaton();
     let fingerprint = setup.hoa().map_or_else(|| "translated".to_owned(), |hoa| format!("{:016x}", fingerprint(hoa)));
     row("automaton", format!("{} states, {} accepting sets, fingerprint {fingerprint}", automaton.len(), automaton.sets()));
-    row("networks", format!("{} modules, hidden layers {:?}; the file holds actors and critics", learner.modules().len(), l.hidden));
+    row(
+        "networks",
+        format!("{} modules, hidden layers {:?}; the file holds actors and critics", learner.modules().len(), l.hidden),
+    );
     row("recipe", format!("`{}`; all its numbers stand in the file's metadata", setup.preset_name()));
     let extent = checkpoint.extent;
     row("trained for", format!("{} environment steps, {} episodes, {} updates", extent.steps, extent.episodes, extent.updates));
