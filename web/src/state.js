@@ -119,7 +119,7 @@ const list = (initial, known) => ({
 
 /** @type {{ [K in keyof State]: Property<State[K]> }} */
 export const PROPERTIES = {
-  task: text('ball_pass_b1', MAX_HOA_IN_LINK, /^([a-z0-9_]{1,64}|[^]*\n[^]*)$/),
+  task: text('melas', MAX_HOA_IN_LINK, /^([a-z0-9_]{1,64}|[^]*\n[^]*)$/),
   formula: text('', 2000),
   hoa: text('', MAX_HOA_IN_LINK),
   map: text('', MAX_IN_LINK, /^[A-Za-z0-9._-]*$/),

@@ -199,7 +199,7 @@ test('a link restores the state; a hostile one is told and does no harm', async 
   await page.waitForSelector('#automaton svg .node.current');
   const notices = await page.textContent('#notices');
   for (const word of ['task', 'seed', 'speed', 'what']) assert.match(notices ?? '', new RegExp(`“${word}”`), notices ?? '');
-  assert.equal(await page.inputValue('#task'), 'ball_pass_b1');
+  assert.equal(await page.inputValue('#task'), 'melas');
   await page.goto(`${site.url}#formula=G+F+(`);
   await page.reload();
   await page.waitForSelector('#formula[aria-invalid=true]');
