@@ -34,7 +34,7 @@ export function happenings(layout, episode) {
 export class Player {
   /** @param {number} dt  simulated seconds between rows; 0 where time has no unit */
   constructor(dt) {
-    this.rowsPerSecond = dt > 0 ? 1 / dt : 30;
+    this.rowsPerSecond = dt > 0 ? 1 / dt : 60;
     /** @type {Episode | null} */
     this.episode = null;
     /** Whose episode it is, or one that was kept. @type {import('./protocol.js').Whose | 'kept'} */
