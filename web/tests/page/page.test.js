@@ -180,7 +180,7 @@ test('a checkpoint is saved, loaded and goes on where it was', async () => {
   assert.deepEqual([await number(page, 'n-steps'), await number(page, 'n-episodes')], [steps, episodes]);
   assert.equal(await page.inputValue('#seed'), '9');
   assert.equal(await page.inputValue('#task'), 'ball_pass_b1');
-  await page.setInputFiles('#load', { name: 'wrong.safetensors', mimeType: 'application/octet-stream', buffer: Buffer.from('nothing of the kind') });
+  await page.setInputFiles('#load', { name: 'wrong.safetensors', mimeType: 'application/octet-stream', buffer: Buffer.from('nothing\nof the kind') });
   await page.waitForSelector('.notice.problem');
   assert.equal(await number(page, 'n-steps'), steps, 'a wrong file changes nothing');
   assert.deepEqual(problems, []);
