@@ -82,7 +82,14 @@ pub fn dots(out: &Path, scale: Scale, title: &str, rows: &[Dots]) -> Result<(), 
             .x_label_area_size(44)
             .y_label_area_size(230)
             .build_cartesian_2d(scale.range(rows), 0.0..n)?;
-        chart.configure_mesh().disable_y_mesh().disable_y_axis().x_desc(title).x_label_formatter(&|x| scale.label(*x)).draw()?;
+        chart
+            .configure_mesh()
+            .disable_y_mesh()
+            .disable_y_axis()
+            .max_light_lines(0)
+            .x_desc(title)
+            .x_label_formatter(&|x| scale.label(*x))
+            .draw()?;
         for (i, row) in rows.iter().enumerate() {
             let y = n - i as f64 - 0.5;
             let colour = COLOURS[row.colour % COLOURS.len()];
@@ -112,7 +119,7 @@ pub fn bands(out: &Path, (x, y): (&str, &str), bands: &[Band]) -> Result<(), Fai
             .x_label_area_size(44)
             .y_label_area_size(76)
             .build_cartesian_2d(0.0..last, low - room..high + room)?;
-        chart.configure_mesh().x_desc(x).y_desc(y).light_line_style(WHITE).draw()?;
+        chart.configure_mesh().x_desc(x).y_desc(y).light_line_style(WHITE).x_label_formatter(&|x| count(*x)).draw()?;
         for band in bands {
             let colour = COLOURS[band.colour % COLOURS.len()];
             let above = band.points.iter().map(|p| (p[0], p[3]));

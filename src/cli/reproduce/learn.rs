@@ -60,7 +60,7 @@ pub fn learn(plan: &Plan, out: &Path, conditions: Conditions, progress: &dyn Fn(
         first_perfect,
         best_step: run.best().map_or(run.trainer().steps(), |best| best.step),
         evaluation,
-        curve: curve.bins,
+        curve: curve.bins.iter().map(rounded).collect(),
     };
     files::write(&plan.policy_file(out), run.save_policy(&setup.origin()))?;
     plan.finished(outcome, conditions).store(plan, out)
@@ -101,6 +101,12 @@ impl Bins {
             self.width *= 2;
         }
     }
+}
+
+/// With as many digits as a picture shows.
+fn rounded(bin: &Bin) -> Bin {
+    let (fine, coarse) = ((bin.average_reward * 1e7).round() / 1e7, (bin.total_reward * 1e5).round() / 1e5);
+    Bin { average_reward: fine, total_reward: coarse, ..*bin }
 }
 
 fn joined(a: &Bin, b: &Bin) -> Bin {

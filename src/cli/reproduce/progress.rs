@@ -99,7 +99,11 @@ impl CellBar<'_> {
         self.all.total.set_message(self.all.count());
         let (true, Some(cell)) = (self.all.lines, cell) else { return };
         let (e, o) = (&cell.outcome.evaluation, &cell.outcome);
-        let first = o.first_perfect.map_or("never perfect".to_owned(), |m| format!("perfect after {} steps", m.step));
+        let first = match o.first_perfect {
+            Some(milestone) => format!("perfect after {} steps", milestone.step),
+            None if o.evaluating.wall == 0.0 => "not evaluated in between".to_owned(),
+            None => "never perfect".to_owned(),
+        };
         eprintln!(
             "{}: {} {} seed {}: {}/{}, {first}, {} steps in {:.0} s; at most {} left",
             self.all.count(),
