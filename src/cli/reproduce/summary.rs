@@ -40,9 +40,10 @@ impl Group {
         (self.done().count() > 0).then(|| interquartile_mean(&self.rates()))
     }
 
-    /// The bootstrap interval of the interquartile mean over seeds at 95 %.
+    /// The bootstrap interval of the interquartile mean over seeds at 95 %; `None` for a single seed, which says nothing of others.
     pub fn interval(&self) -> Option<Interval> {
-        bootstrap(&[&self.rates()])
+        let rates = self.rates();
+        if rates.len() > 1 { bootstrap(&[&rates]) } else { None }
     }
 
     /// Seeds whose policy succeeds in at least 99 % of its runs.

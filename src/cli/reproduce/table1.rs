@@ -8,6 +8,7 @@ use super::summary::bootstrap;
 use super::text::{MISSING, Table, count, duration, or_missing, percent, percents};
 use crate::cli::failure::Failure;
 use crate::cli::files;
+use crate::eval::Interval;
 use serde_json::json;
 use std::fmt::Write;
 
@@ -25,7 +26,8 @@ pub fn write(contest: &Contest, rows: &[Row]) -> Result<(), Failure> {
     let dots: Vec<Dots> = rows
         .iter()
         .filter_map(|row| {
-            let (middle, interval) = (row.group.rate()?, row.group.interval()?);
+            let middle = row.group.rate()?;
+            let interval = row.group.interval().unwrap_or(Interval { low: middle, high: middle });
             let label = format!("{}  {}", short(&row.group.task), row.method.title());
             Some(Dots { label, colour: row.method as usize, middle, interval, values: row.group.rates() })
         })
