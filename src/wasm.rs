@@ -320,7 +320,7 @@ impl Session {
             .map_err(|e| refused(Refusal::new(Subject::Session, format!("the request is malformed: {e}"))))?;
         let map = self.0.value_map(&request).map_err(refused)?;
         let object = Object::new();
-        set(&object, "module", map.module as f64);
+        set(&object, "module", map.module.map_or(JsValue::NULL, |module| JsValue::from(module as f64)));
         set(&object, "axes", plain::<JsValue>(&map.axes));
         set(&object, "columns", map.columns as f64);
         set(&object, "rows", map.rows as f64);

@@ -171,6 +171,15 @@ impl ModularDdpg {
         self.best(observation, at).map(|(_, value)| value)
     }
 
+    /// Q(x, π(x)) with π(x), without choosing anything; `None` in a sink.
+    pub fn consider(&mut self, observation: &[f32], at: EmbeddedState, control: &mut [f32]) -> Option<f32> {
+        let chosen = self.chosen;
+        let value = self.value(observation, at);
+        self.act(&Situation { observation, at, jumps: &[] }, control);
+        self.chosen = chosen;
+        value
+    }
+
     /// The module in charge of x = (`observation`, `at`): of several that compete, the one whose Q(x, π(x)) is greatest, and of equal
     /// ones the first. `None` in a sink.
     pub fn in_charge(&mut self, observation: &[f32], at: EmbeddedState) -> Option<usize> {

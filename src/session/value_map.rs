@@ -1,7 +1,7 @@
 //! What a critic thinks of a plane of states: V(x) = Q(x, π(x)) on a grid, with the control that π chooses there.
 
 use super::refusal::{Refusal, Subject};
-use crate::agent::{ModularDdpg, Policy, Situation};
+use crate::agent::ModularDdpg;
 use crate::automaton::{EmbeddedState, Marks, StateId};
 use crate::env::{Body, Channel, Environment};
 use crate::product::EpMdp;
@@ -38,8 +38,8 @@ pub struct ValueAxis {
 /// Values on a grid. Point (column, row) stands in the middle of its cell; all other channels of the state are at rest: the middle of their range.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ValueMap {
-    /// The module that was asked.
-    pub module: usize,
+    /// The module that was asked; `None` where several compete, the one that promises most in each place.
+    pub module: Option<usize>,
     /// What changes along a row, and along a column.
     pub axes: [ValueAxis; 2],
     /// Points in a row.
@@ -73,9 +73,10 @@ pub(super) fn over(product: &EpMdp, learner: &mut ModularDdpg, request: &ValueMa
         return refuse(format!("there is no state q{q}; the automaton has {} states", automaton.len()));
     }
     let at = EmbeddedState { q, frontier: Marks(frontier & automaton.all_sets().0), ..embedding.start() };
-    let Some(module) = learner.modules().of(at) else {
+    let module = learner.modules().of(at);
+    if learner.modules().candidates(at).next().is_none() {
         return refuse(format!("no module is in charge of q{q} with this frontier"));
-    };
+    }
     let mut environment = product.environment().boxed_clone();
     let spec = environment.spec().clone();
     let axes = plane(&environment.scene().body).map(|channel| axis(&*environment, channel));
@@ -90,8 +91,7 @@ pub(super) fn over(product: &EpMdp, learner: &mut ModularDdpg, request: &ValueMa
             state[axes[1].channel] = within(&axes[1], row, rows);
             environment.set_state(&state);
             environment.observe(&mut observation);
-            values.push(learner.value(&observation, at).expect("its module was just found"));
-            learner.act(&Situation { observation: &observation, at, jumps: &[] }, &mut control);
+            values.push(learner.consider(&observation, at, &mut control).expect("some module was just found"));
             controls.extend_from_slice(&control);
         }
     }

@@ -100,7 +100,7 @@
 /**
  * V(x) on a grid, rows from the least value of the second channel upwards; each point stands in the middle of its cell.
  * @typedef {object} ValueMap
- * @property {number} module
+ * @property {number | null} module   `null` where several compete: in each place the one that promises most
  * @property {{ channel: number, low: number, high: number }[]} axes   what changes along a row, and along a column
  * @property {number} columns
  * @property {number} rows
