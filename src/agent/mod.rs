@@ -7,6 +7,7 @@
 mod bootstrap;
 mod exploration;
 mod learner;
+mod look;
 mod memory;
 mod modular;
 mod module;

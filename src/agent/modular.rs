@@ -53,7 +53,7 @@ pub struct ModularDdpg {
     /// The module that was in charge of x_t, until the updates of that step are done.
     pub(super) current: Option<usize>,
     /// The module that the last look at a situation put in charge.
-    chosen: Option<usize>,
+    pub(super) chosen: Option<usize>,
     /// Embedded states from which counterfactual samples read their first letter; empty if they are too many to list.
     listed: Vec<EmbeddedState>,
     batch: Bootstrap,
@@ -169,15 +169,6 @@ impl ModularDdpg {
     /// Q(x, π(x)) of the module in charge, in units of unscaled rewards; `None` in a sink.
     pub fn value(&mut self, observation: &[f32], at: EmbeddedState) -> Option<f32> {
         self.best(observation, at).map(|(_, value)| value)
-    }
-
-    /// Q(x, π(x)) with π(x), without choosing anything; `None` in a sink.
-    pub fn consider(&mut self, observation: &[f32], at: EmbeddedState, control: &mut [f32]) -> Option<f32> {
-        let chosen = self.chosen;
-        let value = self.value(observation, at);
-        self.act(&Situation { observation, at, jumps: &[] }, control);
-        self.chosen = chosen;
-        value
     }
 
     /// The module in charge of x = (`observation`, `at`): of several that compete, the one whose Q(x, π(x)) is greatest, and of equal
