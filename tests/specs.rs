@@ -269,25 +269,31 @@ fn evaluations_start_in_places_of_their_own() {
     }
 }
 
-/// Both automata are deterministic and the same but for the numbers and names of their states, as far as `letters` can tell.
+/// Both automata are the same but for the numbers and names of their states, as far as `letters` can tell.
 fn same_but_for_numbers(one: &Ldgba, other: &Ldgba, letters: &[Labels]) -> bool {
     let mut partner = std::collections::HashMap::from([(one.initial(), other.initial())]);
     let mut open = vec![one.initial()];
     while let Some(q) = open.pop() {
         let p = partner[&q];
-        if !(one.epsilon(q).is_empty() && other.epsilon(p).is_empty()) {
-            return false;
-        }
+        // ε-jumps correspond in their order.
+        let jumps = one.epsilon(q).iter().copied().zip(other.epsilon(p).iter().copied());
+        let mut pairs: Vec<_> = jumps.collect();
+        let mut same = one.epsilon(q).len() == other.epsilon(p).len();
         for sigma in letters {
             let (left, right) = (one.edge(q, *sigma), other.edge(p, *sigma));
-            let known = partner.get(&left.target).copied();
-            if left.marks != right.marks || known.is_some_and(|known| known != right.target) {
-                return false;
-            }
+            same &= left.marks == right.marks;
+            pairs.push((left.target, right.target));
+        }
+        for (left, right) in pairs {
+            let known = partner.get(&left).copied();
+            same &= known.is_none_or(|known| known == right);
             if known.is_none() {
-                partner.insert(left.target, right.target);
-                open.push(left.target);
+                partner.insert(left, right);
+                open.push(left);
             }
+        }
+        if !same {
+            return false;
         }
     }
     let images: std::collections::HashSet<_> = partner.values().collect();
