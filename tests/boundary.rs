@@ -30,7 +30,9 @@ mod boundary {
     }
 
     fn get(object: &JsValue, path: &str) -> JsValue {
-        path.split('.').fold(object.clone(), |value, key| Reflect::get(&value, &key.into()).expect("objects have properties"))
+        path.split('.').fold(object.clone(), |value, key| {
+            Reflect::get(&value, &key.into()).unwrap_or_else(|_| panic!("no `{key}` of `{path}` in {:?}", JSON::stringify(object)))
+        })
     }
 
     fn open(text: &str) -> Result<Session, JsValue> {
@@ -102,7 +104,7 @@ mod boundary {
         let options = parse(r#"{ "state_based": false, "classify": false }"#);
         let small: JsValue = translate_formula("G F r1 & G F r2", "ball_pass_b1", options.unchecked_into()).into();
         assert_eq!((get(&small, "facts.size.states"), get(&small, "facts.class")), (1.into(), JsValue::NULL));
-        let strange = parse(r#"{ "stateBased": false }"#);
+        let strange = parse(r#"{ "state_based": "no" }"#);
         let refused: JsValue = translate_formula("a", "", strange.unchecked_into()).into();
         assert!(get(&refused, "error.message").as_string().unwrap().contains("malformed"));
 
