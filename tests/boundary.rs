@@ -31,7 +31,8 @@ mod boundary {
 
     fn get(object: &JsValue, path: &str) -> JsValue {
         path.split('.').fold(object.clone(), |value, key| {
-            Reflect::get(&value, &key.into()).unwrap_or_else(|_| panic!("no `{key}` of `{path}` in {:?}", JSON::stringify(object)))
+            Reflect::get(&value, &key.into())
+                .unwrap_or_else(|_| panic!("no `{key}` of `{path}` in {:?}", JSON::stringify(object)))
         })
     }
 
