@@ -164,6 +164,7 @@ export class Experiment {
     await this.playAll(Math.min(MOST_AT_ONCE, Math.max(chosen.length, navigator.hardwareConcurrency || 2)));
     if (!this.running) return;
     this.running = false;
+    this.update();
     this.showButton();
     const failed = this.runs.filter((run) => run.stand === 'failed');
     if (failed.length > 0) notice(`${failed.length} of ${this.runs.length} runs failed: ${failed[0].problem}`, true);
@@ -215,6 +216,11 @@ export class Experiment {
     if (!this.stale || now - this.drawn < REDRAW) return;
     this.stale = false;
     this.drawn = now;
+    this.update();
+  }
+
+  /** Tells how all runs stand. */
+  update() {
     for (const column of this.columns) column.update();
     this.charts?.update(this.runs);
     const steps = this.runs.reduce((sum, run) => sum + run.steps, 0);
