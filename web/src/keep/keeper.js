@@ -64,10 +64,17 @@ export class Keeper {
       setText(used, `${Math.round(memory / 1e6)} MB`);
       this.samples = modules.reduce((sum, module) => sum + module.replay, 0);
       this.steps = steps;
+      if (!app.training) return rest();
       clearTimeout(this.timer);
-      if (app.training) {
-        if (this.cadence.due(performance.now(), steps)) this.keep();
-      } else if (this.cadence.news(steps)) this.timer = window.setTimeout(() => this.keep(), REST);
+      if (this.cadence.due(performance.now(), steps)) this.keep();
+    });
+    const rest = () => {
+      clearTimeout(this.timer);
+      if (this.cadence.news(this.steps)) this.timer = window.setTimeout(() => this.keep(), REST);
+    };
+    // The last telemetry of a training that ends by itself comes before its end.
+    app.signals.on('training', (training) => {
+      if (!training) rest();
     });
     const now = () => {
       if (this.cadence.news(this.steps)) this.keep();

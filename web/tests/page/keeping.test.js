@@ -57,7 +57,7 @@ for (const size of /** @type {const} */ (['wide', 'phone'])) {
 }
 
 test('a run is kept while it trains, and at once when the page is hidden', async () => {
-  const { page, context, problems } = await visit(site, { hash: `#${LIGHT}` });
+  const { page, context, problems } = await visit(site, { hash: `#${LIGHT};training.steps=10000000` });
   await page.click('#train');
   const first = await untilKept(page, (steps) => steps > 0);
   assert.equal(await page.textContent('#train'), 'Pause', 'training goes on meanwhile');
@@ -69,6 +69,17 @@ test('a run is kept while it trains, and at once when the page is hidden', async
   const began = Date.now();
   await untilKept(page, (steps) => steps > first);
   console.log(`# kept ${Date.now() - began} ms after the page was hidden`);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
+test('a training that ends by itself is kept as it ended', async () => {
+  const { page, context, problems } = await visit(site, { hash: `#${LIGHT};training.steps=2000` });
+  await page.click('#train');
+  await page.waitForFunction(() => document.getElementById('notices')?.textContent?.includes('used up the budget'));
+  const steps = await number(page, 'n-steps');
+  assert.ok(steps >= 2000);
+  await untilKept(page, (k) => k === steps);
   assert.deepEqual(problems, []);
   await context.close();
 });
