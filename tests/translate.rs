@@ -4,6 +4,7 @@ mod translate {
     pub mod families;
     pub mod hard;
     pub mod language;
+    pub mod limits;
     pub mod options;
     pub mod references;
     pub mod typing;

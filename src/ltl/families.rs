@@ -11,7 +11,7 @@ pub struct Family {
     pub formulas: Vec<Formula>,
 }
 
-/// All families: some 130 formulas.
+/// All families: some 140 formulas.
 pub fn all() -> Vec<Family> {
     let family = |name, formulas| Family { name, formulas };
     vec![
@@ -23,6 +23,7 @@ pub fn all() -> Vec<Family> {
         family("visits in order", (1..=5).flat_map(visits).collect()),
         family("delays", (1..=4).flat_map(delays).collect()),
         family("nested promises", nested()),
+        family("many limits", [4, 8, 12, 16].into_iter().flat_map(limits).collect()),
     ]
 }
 
@@ -132,6 +133,14 @@ fn pairs(n: usize) -> Vec<Formula> {
     let streett = all_of((1..=n).map(|i| or(recurs(i), persists(i))));
     let rabin = (1..=n).map(|i| and(recurs(i), persists(i))).reduce(or).expect("n ≥ 1");
     vec![streett, rabin]
+}
+
+/// One of many things persists; the same unless something happens once; one recurs if all of many others do.
+fn limits(n: usize) -> Vec<Formula> {
+    let persists = |i| finally(globally(not(numbered("v", i))));
+    let any = (1..=n).map(persists).reduce(or).expect("n ≥ 1");
+    let all = all_of((1..=n).map(|i| globally(finally(numbered("a", i)))));
+    vec![any.clone(), or(any, finally(p("unsafe"))), implies(all, globally(finally(p("b"))))]
 }
 
 /// Nested U and R, to the left and to the right.

@@ -5,10 +5,10 @@
 //! [Esparza, Křetínský & Sickert](crate::bib::Esparza2020), section 6.
 
 use super::breakpoint::Renewal;
-use super::guess::{Guesses, Scope};
-use super::symmetric::{keys, subsets};
+use super::guess::{Guesses, KeySet, Scope};
+use super::symmetric::keys;
 use super::target::{Target, undominated};
-use super::unfold::Unfolding;
+use super::unfold::{Invariants, Unfolding};
 use super::work::Stop;
 use crate::bdd::Bdd;
 use crate::ltl::{Node, NodeId};
@@ -22,7 +22,8 @@ pub(super) enum Layout {
     Pieces,
 }
 
-/// The jumps from state `b`.
+/// The jumps from state `b`. Nothing has to be [recalled](super::invariant::recalled): the rewriting makes every kept `F ψ` true or false, and
+/// unfolded it would be the same.
 pub(super) fn targets(
     u: &mut Unfolding<'_>,
     guesses: &mut Guesses,
@@ -31,6 +32,10 @@ pub(super) fn targets(
     renewal: Renewal,
 ) -> Result<Vec<Target>, Stop> {
     let keys = keys(u, guesses, b, Scope::Greatest)?;
+    let count = keys.count_ones() as usize;
+    if count > u.work.guesses() {
+        return Err(Stop::Guesses(count));
+    }
     let mut found = Vec::new();
     for guess in subsets(keys) {
         u.work.tick(16)?;
@@ -41,6 +46,7 @@ pub(super) fn targets(
         if all == Bdd::FALSE {
             continue;
         }
+        let mut same = all;
         let mut beside: Vec<NodeId> = Vec::new();
         for body in guesses.bodies(guess).1 {
             let body = guesses.as_co_safety(u, body, guess);
@@ -54,8 +60,9 @@ pub(super) fn targets(
             };
             for part in parts {
                 if layout == Layout::Joint || u.store.traits(part).is_safety() {
-                    let part = u.unfold(part)?;
-                    all = u.bdd.and(all, part)?;
+                    let (unfolded, kept) = (u.unfold(part)?, u.unfold_with(part, Invariants::Kept)?);
+                    all = u.bdd.and(all, unfolded)?;
+                    same = u.bdd.and(same, kept)?;
                 } else {
                     beside.push(part);
                 }
@@ -64,8 +71,19 @@ pub(super) fn targets(
         beside.sort_unstable();
         beside.dedup();
         if all != Bdd::FALSE {
-            found.push(Target::new(u, all, beside, renewal)?);
+            found.push(Target::new(u, all, same, beside, renewal)?);
         }
     }
     undominated(u, found)
+}
+
+/// The subsets of a set, the empty one first.
+fn subsets(set: KeySet) -> impl Iterator<Item = KeySet> {
+    let mut next = Some(0);
+    std::iter::from_fn(move || {
+        let now = next?;
+        // Counting in the bits of `set` only.
+        next = (now != set).then(|| (now | !set).wrapping_add(1) & set);
+        Some(now)
+    })
 }

@@ -54,6 +54,11 @@ impl Guesses {
         (recurring, lasting)
     }
 
+    /// The keys of a set that say [`Key::Recurring`].
+    pub fn recurring(&self, set: KeySet) -> KeySet {
+        members(set).filter(|i| matches!(self.keys[*i], Key::Recurring(_))).fold(0, |found, i| found | 1 << i)
+    }
+
     /// The keys that have to be guessed about for `id`.
     pub fn of(&mut self, u: &mut Unfolding<'_>, id: NodeId, scope: Scope) -> Result<KeySet, Stop> {
         if let Some(&known) = self.of.get(&(scope, id)) {

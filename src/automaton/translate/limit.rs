@@ -1,9 +1,9 @@
 //! The limit-deterministic automaton of a whole formula: an initial component that tracks the formula, and jumps out of it.
 //!
-//! The initial component is the deterministic automaton of `af`. A jump leaves it from a state B that can recur, with a guess about the fixpoints
-//! that B still has ([`symmetric`](super::symmetric), [`split`](super::split), [`asymmetric`](super::asymmetric)). Two shortcuts avoid jumps: a
-//! safety state is tracked in the accepting part at once, and a state whose language is contained in that of one of its targets *is* that
-//! target, so that nothing is guessed at all.
+//! The initial component is the deterministic automaton of `af`, but for [what no letter changes](super::invariant). A jump leaves it from a
+//! state B that can recur, with a guess about the fixpoints that B still has ([`symmetric`](super::symmetric), [`split`](super::split),
+//! [`asymmetric`](super::asymmetric)). Two shortcuts avoid jumps: a safety state is tracked in the accepting part at once, and a state whose
+//! language is contained in that of one of its targets *is* that target, so that nothing is guessed at all.
 //!
 //! Good for MDPs: the initial component loses nothing that was read, every jump can be put off for as long as its guess may still come
 //! true, and behind it everything is deterministic; [Sickert et al.](crate::bib::Sickert2016), section 5, and
@@ -17,7 +17,7 @@ use super::options::Construction;
 use super::target::{Besides, Target, Together};
 use super::unfold::Unfolding;
 use super::work::Stop;
-use super::{split, symmetric};
+use super::{invariant, split, symmetric};
 use crate::automaton::scc::components;
 use crate::bdd::Bdd;
 use std::collections::HashMap;
@@ -68,7 +68,7 @@ pub(super) fn limit_deterministic(
         marks: Vec::new(),
         sets: 1,
     };
-    let initial = u.unfold_raw(raw)?;
+    let initial = invariant::tracked(u, raw)?;
     let place = builder.place(u, initial)?;
     builder.numbering.number(place, &mut u.work)?;
     builder.expand(u)?;
@@ -105,7 +105,10 @@ impl Builder {
         }
         if !self.targets.contains_key(&b) {
             let targets = match self.guess {
-                Guess::Symmetric => symmetric::targets(u, &mut self.guesses, b)?,
+                Guess::Symmetric => {
+                    let b = invariant::recalled(u, b)?;
+                    symmetric::targets(u, &mut self.guesses, b)?
+                }
                 Guess::Split => split::targets(u, &mut self.guesses, b)?,
                 Guess::Asymmetric(layout, renewal) => asymmetric::targets(u, &mut self.guesses, b, layout, renewal)?,
             };
@@ -156,7 +159,7 @@ impl Builder {
     fn track(&mut self, u: &mut Unfolding<'_>, b: Bdd) -> Result<Vec<Arrow>, Stop> {
         let mut edges = Vec::new();
         for &(guard, raw) in u.steps(b)?.iter() {
-            let next = u.unfold_raw(raw)?;
+            let next = invariant::tracked(u, raw)?;
             if next != Bdd::FALSE {
                 let place = self.place(u, next)?;
                 edges.push(Arrow { guard, target: self.numbering.number(place, &mut u.work)?, marks: 0 });

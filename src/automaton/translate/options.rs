@@ -47,7 +47,7 @@ pub struct Budget {
     pub nodes: usize,
     /// How many steps of recursion decision diagrams may take in all.
     pub steps: u64,
-    /// How many fixpoint subformulas may be guessed about: each doubles the number of ε-jumps that are tried.
+    /// About how many fixpoint subformulas may be guessed, each by itself: at most 2 to the power of this many guesses are made in a state.
     pub guesses: usize,
 }
 

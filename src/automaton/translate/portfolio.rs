@@ -1,7 +1,7 @@
 //! Several constructions for one formula, of which the smallest result is kept.
 //!
-//! Smallest: fewest states, then fewest jumps, then fewest accepting sets, then fewest edges; on request, any without jumps before any with. In case of a tie the earlier attempt wins, so the
-//! result does not depend on anything but the formula.
+//! Smallest: fewest states, then fewest jumps, then fewest accepting sets, then fewest edges; on request, any without jumps before any with. In
+//! case of a tie the earlier attempt wins, so the result does not depend on anything but the formula.
 
 use super::asymmetric::Layout;
 use super::breakpoint::{Renewal, breakpoint};
@@ -11,10 +11,11 @@ use super::options::{Construction, Preference};
 use super::pieces::{co_safety, product, recurrence, safety};
 use super::reduce::reduced;
 use super::target::{Together, recurring, trivial};
+use super::together::{MOST_EDGES, Piece, beside_one_another};
 use super::unfold::Unfolding;
 use super::work::Stop;
 use crate::bdd::Bdd;
-use crate::ltl::{Node, NodeId};
+use crate::ltl::{Node, NodeId, Traits};
 
 /// What is compared.
 fn size(graph: &Graph, prefer: Preference) -> (bool, usize, usize, usize, usize) {
@@ -71,6 +72,9 @@ const STEPS_OF_COMPETITION: u64 = 120_000;
 /// How many it may take while there is no result: more would be longer than the reader of a page likes to wait.
 const STEPS_TO_START: u64 = 120_000;
 
+/// From how many suffix-invariant subformulas on pieces are tried before the whole.
+const MANY_INVARIANTS: usize = 6;
+
 /// How many states an attempt may make that competes with a result of `best` states.
 fn allowance(u: &Unfolding<'_>, best: &Best) -> usize {
     let limit = u.work.budget().states;
@@ -87,22 +91,28 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
         // Nothing but jumps.
     } else if hard.is_empty() {
         u.work.start_attempt(u.work.budget().states, u.work.budget().guesses);
-        let attempt = deterministic(u, &parts);
+        let attempt = deterministic(u, &parts, MOST_EDGES);
         best.offer(u, attempt)?;
         if best.is_minimal() {
             return best.result(u);
         }
         for renewal in [Renewal::Raw, Renewal::Unfolded] {
             u.work.start_attempt(allowance(u, &best), 0);
+            u.bdd.allow_steps(if best.graph.is_some() { STEPS_TO_COMPETE } else { u64::MAX });
             let attempt = u.raw(formula).and_then(|raw| breakpoint(u, raw, renewal));
             best.offer(u, attempt)?;
+            u.bdd.allow_steps(u64::MAX);
         }
     } else if !easy.is_empty() {
         let rest = u.store.and(hard);
         let attempt = smallest(u, rest).and_then(|rest| {
             u.work.start_attempt(u.work.budget().states, u.work.budget().guesses);
-            let beside = deterministic(u, &easy)?;
-            let beside = reduced(u, beside)?;
+            let beside = deterministic(u, &easy, MOST_EDGES)?;
+            let mut beside = reduced(u, beside)?;
+            if beside.edges() * rest.edges() > 8 * MOST_EDGES {
+                let fewer = deterministic(u, &easy, 0)?;
+                beside = reduced(u, fewer)?;
+            }
             product(u, &beside, &rest)
         });
         best.offer(u, attempt)?;
@@ -111,13 +121,18 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
     if best.is_minimal() {
         return best.result(u);
     }
+    let raw = u.raw(formula)?;
     // Whether several recurrences that need memory stand beside one another: only then can a round robin be smaller.
     let mut has_memory = false;
+    let mut order = GUESSES;
+    if u.variables_with(raw, Traits::is_suffix_invariant).len() >= MANY_INVARIANTS {
+        order.swap(0, 1);
+    }
     // At first every attempt gets little; if none of them comes to an end with that, as much as there is.
     for patience in [STEPS_TO_START, 8 * STEPS_TO_START, u64::MAX] {
         best.stop = None;
         let mut competition = STEPS_OF_COMPETITION;
-        for (guess, together) in GUESSES {
+        for (guess, together) in order {
             if !guess.is_of(u.construction) || together == Together::RoundRobin && !has_memory {
                 continue;
             }
@@ -131,7 +146,7 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
                 Some(_) => STEPS_TO_COMPETE.min(competition),
                 None => patience,
             });
-            let attempt = u.raw(formula).and_then(|raw| limit_deterministic(u, raw, guess, together));
+            let attempt = limit_deterministic(u, raw, guess, together);
             let attempt = attempt.map(|(graph, memory)| {
                 has_memory |= memory;
                 graph
@@ -150,6 +165,8 @@ pub(super) fn smallest(u: &mut Unfolding<'_>, formula: NodeId) -> Result<Graph, 
 }
 
 /// The ways to guess, in the order in which they are tried.
+///
+/// With many suffix-invariant subformulas the second goes first: the safety automaton of a symmetric guess tracks all combinations of them.
 const GUESSES: [(Guess, Together); 8] = [
     (Guess::Symmetric, Together::Product),
     (Guess::Split, Together::Product),
@@ -169,8 +186,8 @@ fn conjuncts(u: &Unfolding<'_>, formula: NodeId) -> Vec<NodeId> {
 }
 
 /// A deterministic automaton for a conjunction of Π₂ formulas: the safety conjuncts tracked together, each `G F` and each other conjunct by an
-/// automaton of its own.
-fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId]) -> Result<Graph, Stop> {
+/// automaton of its own; recurrences one after the other if it had more edges than `most_edges` otherwise.
+fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId], most_edges: usize) -> Result<Graph, Stop> {
     let mut safe = Bdd::TRUE;
     let mut pieces = Vec::new();
     for &part in parts {
@@ -180,22 +197,22 @@ fn deterministic(u: &mut Unfolding<'_>, parts: &[NodeId]) -> Result<Graph, Stop>
         if traits.is_safety() {
             safe = u.bdd.and(safe, raw)?;
         } else if traits.is_co_safety() {
-            pieces.push(co_safety(u, raw)?);
+            pieces.push((co_safety(u, raw)?, false));
         } else if let Some(chi) = recurring(u, part) {
-            pieces.push(recurrence(u, chi)?);
+            pieces.push((recurrence(u, chi)?, true));
         } else {
             let mut best = Best { graph: None, stop: None };
             for renewal in [Renewal::Raw, Renewal::Unfolded] {
                 let attempt = breakpoint(u, raw, renewal);
                 best.offer(u, attempt)?;
             }
-            pieces.push(best.result(u)?);
+            pieces.push((best.result(u)?, false));
         }
     }
-    let mut all = if safe == Bdd::TRUE { trivial(u)? } else { safety(u, safe)? };
-    for piece in pieces {
-        let piece = reduced(u, piece)?;
-        all = product(u, &all, &piece)?;
+    let safe = if safe == Bdd::TRUE { trivial(u)? } else { safety(u, safe)? };
+    let mut small = Vec::new();
+    for (graph, recurs) in pieces {
+        small.push(Piece { graph: reduced(u, graph)?, recurs });
     }
-    Ok(all)
+    beside_one_another(u, safe, &small, most_edges)
 }

@@ -17,12 +17,12 @@ pub(super) fn reduced(u: &mut Unfolding<'_>, mut graph: Graph) -> Result<Graph, 
         settle_marks(&mut graph);
         graph = without_dead_states(graph);
         drop_redundant_sets(&mut graph);
-        make_jumps_later(u, &mut graph)?;
+        let moved = make_jumps_later(u, &mut graph)?;
         for state in &mut graph.states {
             state.edges = merge_edges(&mut u.bdd, std::mem::take(&mut state.edges))?;
         }
         graph = bisimulation_quotient(u, graph, |_| 0)?;
-        if before == (graph.states.len(), graph.edges(), graph.jumps(), graph.sets) {
+        if !moved && before == (graph.states.len(), graph.edges(), graph.jumps(), graph.sets) {
             return Ok(graph);
         }
     }
@@ -175,8 +175,8 @@ fn drop_redundant_sets(graph: &mut Graph) {
 ///
 /// What t accepts, q accepts; so what is left of it after a letter is accepted from where the letter leads from q, and the new jumps are right
 /// however their source is reached. A policy that jumped early jumps later and is then in the same state. As targets that cannot recur are left
-/// after finitely many letters, no jump is put off for ever.
-fn make_jumps_later(u: &mut Unfolding<'_>, graph: &mut Graph) -> Result<(), Stop> {
+/// after finitely many letters, no jump is put off for ever. Tells whether there were such jumps.
+fn make_jumps_later(u: &mut Unfolding<'_>, graph: &mut Graph) -> Result<bool, Stop> {
     let successors = successors(graph);
     let found = components(&successors);
     let mut sizes = vec![0; found.count];
@@ -190,6 +190,7 @@ fn make_jumps_later(u: &mut Unfolding<'_>, graph: &mut Graph) -> Result<(), Stop
         .flat_map(|(q, targets)| targets.iter().map(move |t| (q, *t)))
         .filter(|(_, t)| !recurs(*t))
         .collect();
+    let moved = !open.is_empty();
     while let Some((q, target)) = open.pop() {
         jumps[q].remove(&target);
         for inside in &graph.states[target].edges {
@@ -211,7 +212,7 @@ fn make_jumps_later(u: &mut Unfolding<'_>, graph: &mut Graph) -> Result<(), Stop
     for (state, jumps) in graph.states.iter_mut().zip(jumps) {
         state.jumps = jumps.into_iter().collect();
     }
-    Ok(())
+    Ok(moved)
 }
 
 /// Merges states of the same `kind` with the same edges and jumps, up to merging.

@@ -13,6 +13,7 @@ use super::guess::{Guesses, KeySet, Scope};
 use super::target::{Target, undominated};
 use super::unfold::Unfolding;
 use super::work::Stop;
+use super::worthwhile::worthwhile;
 use crate::bdd::Bdd;
 use crate::ltl::{Node, NodeId};
 
@@ -22,29 +23,16 @@ pub(super) fn keys(u: &mut Unfolding<'_>, guesses: &mut Guesses, b: Bdd, scope: 
     for atom in u.atoms(b) {
         all |= guesses.of(u, atom, scope)?;
     }
-    let count = all.count_ones() as usize;
-    if count > u.work.guesses() { Err(Stop::Guesses(count)) } else { Ok(all) }
-}
-
-/// The subsets of a set, the empty one first.
-pub(super) fn subsets(set: KeySet) -> impl Iterator<Item = KeySet> {
-    let mut next = Some(0);
-    std::iter::from_fn(move || {
-        let now = next?;
-        // Counting in the bits of `set` only.
-        next = (now != set).then(|| (now | !set).wrapping_add(1) & set);
-        Some(now)
-    })
+    Ok(all)
 }
 
 /// The jumps from state `b`.
 pub(super) fn targets(u: &mut Unfolding<'_>, guesses: &mut Guesses, b: Bdd) -> Result<Vec<Target>, Stop> {
     let keys = keys(u, guesses, b, Scope::Alternating)?;
     let mut found = Vec::new();
-    for guess in subsets(keys) {
-        u.work.tick(16)?;
+    for guess in worthwhile(u, guesses, b, keys)? {
         if let Some((all, beside)) = one(u, guesses, b, guess)? {
-            found.push(Target::new(u, all, beside, Renewal::Raw)?);
+            found.push(Target::new(u, all, all, beside, Renewal::Raw)?);
         }
     }
     undominated(u, found)

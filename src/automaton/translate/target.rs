@@ -3,7 +3,8 @@
 use super::breakpoint::{Pair, Renewal, breakpoint, obligations};
 use super::graph::Graph;
 use super::pieces::{product, recurrence};
-use super::unfold::Unfolding;
+use super::together::{MOST_EDGES, Piece, beside_one_another, round_robin};
+use super::unfold::{Invariants, Unfolding};
 use super::work::Stop;
 use crate::bdd::Bdd;
 use crate::ltl::{Node, NodeId};
@@ -19,16 +20,16 @@ pub(super) struct Target {
     pub renewal: Option<Renewal>,
     /// Formulas that hold from now on beside it, sorted; each is recognised by an automaton of its own.
     pub beside: Vec<NodeId>,
-    /// The whole language, as the unfolding of a formula.
+    /// The whole language, as the unfolding of a formula in which the formulas that the initial component keeps are kept.
     pub language: Bdd,
 }
 
 impl Target {
-    /// The target that tracks the state `all`, with formulas `beside` it.
-    pub fn new(u: &mut Unfolding<'_>, all: Bdd, beside: Vec<NodeId>, renewal: Renewal) -> Result<Target, Stop> {
-        let mut language = all;
+    /// The target that tracks the state `all`, with formulas `beside` it. `same` has the language of `all`, but kept formulas as they are.
+    pub fn new(u: &mut Unfolding<'_>, all: Bdd, same: Bdd, beside: Vec<NodeId>, renewal: Renewal) -> Result<Target, Stop> {
+        let mut language = same;
         for &formula in &beside {
-            let part = u.unfold(formula)?;
+            let part = u.unfold_with(formula, Invariants::Kept)?;
             language = u.bdd.and(language, part)?;
         }
         let safety = u.atoms(all).iter().all(|id| u.store.traits(*id).is_safety());
@@ -119,22 +120,20 @@ impl Besides {
 
 /// A deterministic automaton for the conjunction of Π₂ formulas.
 fn conjunction(u: &mut Unfolding<'_>, list: &[NodeId], together: Together, renewal: Renewal) -> Result<Graph, Stop> {
-    let mut all = trivial(u)?;
+    let mut pieces = Vec::new();
     let mut in_turn = Vec::new();
     for &formula in list {
-        let graph = match recurring(u, formula) {
-            Some(chi) if together == Together::RoundRobin && !u.store.traits(chi).boolean => {
-                in_turn.push(recurrence(u, chi)?);
-                continue;
-            }
-            Some(chi) => recurrence(u, chi)?,
+        match recurring(u, formula) {
+            Some(chi) if together == Together::RoundRobin && !u.store.traits(chi).boolean => in_turn.push(recurrence(u, chi)?),
+            Some(chi) => pieces.push(Piece { graph: recurrence(u, chi)?, recurs: true }),
             None => {
                 let raw = u.raw(formula)?;
-                breakpoint(u, raw, renewal)?
+                pieces.push(Piece { graph: breakpoint(u, raw, renewal)?, recurs: false });
             }
-        };
-        all = product(u, &all, &graph)?;
+        }
     }
+    let start = trivial(u)?;
+    let mut all = beside_one_another(u, start, &pieces, MOST_EDGES)?;
     if !in_turn.is_empty() {
         let chain = round_robin(u, &in_turn)?;
         all = product(u, &all, &chain)?;
@@ -154,26 +153,4 @@ pub(super) fn recurring(u: &Unfolding<'_>, formula: NodeId) -> Option<NodeId> {
     let Node::Globally(inner) = *u.store.node(formula) else { return None };
     let Node::Finally(chi) = *u.store.node(inner) else { return None };
     u.store.traits(chi).is_co_safety().then_some(chi)
-}
-
-/// Waits for a mark of the first automaton, then of the second, and so on; the last one's mark is the mark of all. Each starts afresh when its
-/// turn comes, which is right for recurrences, as they forget every prefix.
-fn round_robin(u: &mut Unfolding<'_>, graphs: &[Graph]) -> Result<Graph, Stop> {
-    use super::graph::{Arrow, Numbering, State, merge_edges};
-    let mut numbering = Numbering::new();
-    numbering.number((0, graphs[0].initial), &mut u.work)?;
-    let mut chain = Graph { states: Vec::new(), initial: 0, sets: 1 };
-    while let Some(&(turn, q)) = numbering.get(chain.states.len()) {
-        let mut edges = Vec::new();
-        for edge in &graphs[turn].states[q].edges {
-            let done = edge.marks != 0;
-            let next = if done { (turn + 1) % graphs.len() } else { turn };
-            let target = if done && graphs.len() > 1 { graphs[next].initial } else { edge.target };
-            let marks = u64::from(done && next == 0);
-            edges.push(Arrow { guard: edge.guard, target: numbering.number((next, target), &mut u.work)?, marks });
-        }
-        let edges = merge_edges(&mut u.bdd, edges)?;
-        chain.states.push(State { edges, left: graphs[turn].states[q].left.clone(), ..State::default() });
-    }
-    Ok(chain)
 }

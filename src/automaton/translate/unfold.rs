@@ -9,16 +9,34 @@
 //! af: definition 2.3 of [Esparza, Křetínský & Sickert](crate::bib::Esparza2020); unfolding: definition 6 of
 //! [Sickert et al.](crate::bib::Sickert2016).
 
+use super::invariant;
 use super::options::{Construction, Preference};
 use super::work::{Stop, Work};
 use crate::bdd::{Bdd, Manager, Memo, Substitution, Variable};
 use crate::ltl::simplify::Simplifier;
-use crate::ltl::{Node, NodeId, Store};
+use crate::ltl::{Node, NodeId, Store, Traits};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// A letter set and the raw successor under it.
 pub(super) type Step = (Bdd, Bdd);
+
+/// What becomes of suffix-invariant formulas when a formula is unfolded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Invariants {
+    /// They are unfolded as all others are.
+    Unfolded,
+    /// Where [`invariant`](super::invariant) allows it, they are left as they are: no letter changes them.
+    Kept,
+}
+
+/// What was unfolded already, one way.
+#[derive(Default)]
+struct Unfolded {
+    formulas: Memo<usize, Bdd>,
+    replacement: Substitution,
+    raw: Memo<Bdd, Bdd>,
+}
 
 /// The formulas, their diagrams, and everything remembered about them during one translation.
 pub(super) struct Unfolding<'a> {
@@ -42,10 +60,8 @@ pub(super) struct Unfolding<'a> {
     atoms: Vec<NodeId>,
     variables: Memo<usize, Variable>,
     raw: Memo<usize, Bdd>,
-    unfolded: Memo<usize, Bdd>,
-    replacement: Substitution,
-    /// Raw diagrams already unfolded.
-    raw_unfolded: Memo<Bdd, Bdd>,
+    /// By [`Invariants`].
+    unfolded: [Unfolded; 2],
     steps: Memo<Bdd, Rc<[Step]>>,
     /// Per unfolded diagram, the first raw diagram it came from: the formula that names the state.
     origins: Memo<Bdd, Bdd>,
@@ -70,9 +86,7 @@ impl<'a> Unfolding<'a> {
             atoms: Vec::new(),
             variables: Memo::default(),
             raw: Memo::default(),
-            unfolded: Memo::default(),
-            replacement: Substitution::default(),
-            raw_unfolded: Memo::default(),
+            unfolded: <[Unfolded; 2]>::default(),
             steps: Memo::default(),
             origins: Memo::default(),
         }
@@ -122,8 +136,16 @@ impl<'a> Unfolding<'a> {
 
     /// unf(ψ).
     pub fn unfold(&mut self, id: NodeId) -> Result<Bdd, Stop> {
-        if let Some(&known) = self.unfolded.get(&id.index()) {
+        self.unfold_with(id, Invariants::Unfolded)
+    }
+
+    /// unf(ψ), or the same with nx(τ) for suffix-invariant τ.
+    pub fn unfold_with(&mut self, id: NodeId, invariants: Invariants) -> Result<Bdd, Stop> {
+        if let Some(&known) = self.unfolded[invariants as usize].formulas.get(&id.index()) {
             return Ok(known);
+        }
+        if invariants == Invariants::Kept && invariant::is_kept(&self.store, id) {
+            return self.raw(id);
         }
         let result = match self.store.node(id).clone() {
             Node::True => Bdd::TRUE,
@@ -132,7 +154,7 @@ impl<'a> Unfolding<'a> {
             Node::And(list) => {
                 let mut all = Bdd::TRUE;
                 for part in list.iter() {
-                    let part = self.unfold(*part)?;
+                    let part = self.unfold_with(*part, invariants)?;
                     all = self.bdd.and(all, part)?;
                 }
                 all
@@ -140,54 +162,65 @@ impl<'a> Unfolding<'a> {
             Node::Or(list) => {
                 let mut any = Bdd::FALSE;
                 for part in list.iter() {
-                    let part = self.unfold(*part)?;
+                    let part = self.unfold_with(*part, invariants)?;
                     any = self.bdd.or(any, part)?;
                 }
                 any
             }
             Node::Next(a) => self.raw(a)?,
             Node::Finally(a) => {
-                let (now, later) = (self.unfold(a)?, self.raw(id)?);
+                let (now, later) = (self.unfold_with(a, invariants)?, self.raw(id)?);
                 self.bdd.or(now, later)?
             }
             Node::Globally(a) => {
-                let (now, later) = (self.unfold(a)?, self.raw(id)?);
+                let (now, later) = (self.unfold_with(a, invariants)?, self.raw(id)?);
                 self.bdd.and(now, later)?
             }
             Node::Until(a, b) | Node::WeakUntil(a, b) => {
-                let (a, b, later) = (self.unfold(a)?, self.unfold(b)?, self.raw(id)?);
+                let (a, b, later) = (self.unfold_with(a, invariants)?, self.unfold_with(b, invariants)?, self.raw(id)?);
                 let kept = self.bdd.and(a, later)?;
                 self.bdd.or(b, kept)?
             }
             Node::Release(a, b) | Node::StrongRelease(a, b) => {
-                let (a, b, later) = (self.unfold(a)?, self.unfold(b)?, self.raw(id)?);
+                let (a, b, later) = (self.unfold_with(a, invariants)?, self.unfold_with(b, invariants)?, self.raw(id)?);
                 let kept = self.bdd.or(a, later)?;
                 self.bdd.and(b, kept)?
             }
         };
-        self.unfolded.insert(id.index(), result);
+        self.unfolded[invariants as usize].formulas.insert(id.index(), result);
         Ok(result)
     }
 
     /// `f` with every nx(ψ) replaced by unf(ψ).
     pub fn unfold_raw(&mut self, f: Bdd) -> Result<Bdd, Stop> {
-        if let Some(&known) = self.raw_unfolded.get(&f) {
+        self.unfold_raw_with(f, Invariants::Unfolded)
+    }
+
+    /// `f` with every nx(ψ) replaced as [`Unfolding::unfold_with`] says.
+    pub fn unfold_raw_with(&mut self, f: Bdd, invariants: Invariants) -> Result<Bdd, Stop> {
+        if let Some(&known) = self.unfolded[invariants as usize].raw.get(&f) {
             return Ok(known);
         }
         for &variable in self.bdd.support(f).iter() {
-            if variable >= self.propositions && !self.replacement.has(variable) {
-                let value = self.unfold(self.atom(variable))?;
-                self.replacement.set(variable, value);
+            if variable >= self.propositions && !self.unfolded[invariants as usize].replacement.has(variable) {
+                let value = self.unfold_with(self.atom(variable), invariants)?;
+                self.unfolded[invariants as usize].replacement.set(variable, value);
             }
         }
-        let unfolded = self.bdd.substitute(f, &mut self.replacement)?;
+        let done = &mut self.unfolded[invariants as usize];
+        let unfolded = self.bdd.substitute(f, &mut done.replacement)?;
+        done.raw.insert(f, unfolded);
         self.origins.entry(unfolded).or_insert(f);
-        self.raw_unfolded.insert(f, unfolded);
         Ok(unfolded)
     }
 
+    /// The raw diagram that the unfolded diagram `state` first came from.
+    pub fn origin(&self, state: Bdd) -> Option<Bdd> {
+        self.origins.get(&state).copied()
+    }
+
     /// The ψ of the variable nx(ψ).
-    fn atom(&self, variable: Variable) -> NodeId {
+    pub fn atom(&self, variable: Variable) -> NodeId {
         self.atoms[(variable - self.propositions) as usize]
     }
 
@@ -254,24 +287,6 @@ impl<'a> Unfolding<'a> {
         Ok(leaves)
     }
 
-    /// Splits a monotone diagram over nx(·) into its minimal sets of atoms that suffice. `None` if there are more than `limit`.
-    pub fn minimal_clauses(&mut self, f: Bdd, limit: usize) -> Option<Vec<Vec<Variable>>> {
-        if f.is_constant() {
-            return Some(if f == Bdd::TRUE { vec![Vec::new()] } else { Vec::new() });
-        }
-        let variable = self.bdd.top(f).expect("not constant");
-        let (low, high) = self.bdd.branches(f);
-        let mut clauses = self.minimal_clauses(low, limit)?;
-        for clause in self.minimal_clauses(high, limit)? {
-            if !clauses.iter().any(|smaller| smaller.iter().all(|v| clause.contains(v))) {
-                let mut clause = clause;
-                clause.insert(0, variable);
-                clauses.push(clause);
-            }
-        }
-        (clauses.len() <= limit).then_some(clauses)
-    }
-
     /// `f`, conjoined with what its atoms are seen to imply about `atoms`. It has the same words as `f`, and if it implies `g` as a diagram, then
     /// every word that satisfies `f` satisfies `g`.
     pub fn with_implications(&mut self, f: Bdd, atoms: &[NodeId]) -> Result<Bdd, Stop> {
@@ -288,44 +303,15 @@ impl<'a> Unfolding<'a> {
         Ok(assumed)
     }
 
-    /// The subformula in focus as text, shortened if it is long.
-    pub fn focused(&self) -> Option<String> {
-        let text = self.store.formula(self.focus, 10 * LONGEST_NAME)?.to_string();
-        let short: String = text.chars().take(2 * LONGEST_NAME).collect();
-        Some(if short.len() < text.len() { format!("{short} …") } else { short })
-    }
-
     /// unf(ψ) for the variable nx(ψ).
-    pub fn unfolded(&mut self, variable: Variable) -> Result<Bdd, Stop> {
+    pub fn unfolded(&mut self, variable: Variable, invariants: Invariants) -> Result<Bdd, Stop> {
         let atom = self.atom(variable);
-        self.unfold(atom)
+        self.unfold_with(atom, invariants)
     }
 
-    /// The variables nx(ψ) of `f` with a universal ψ: one that holds of every suffix of a word of which it holds.
-    pub fn universal(&self, f: Bdd) -> Vec<Variable> {
-        let universal = |v: &Variable| *v >= self.propositions && self.store.traits(self.atom(*v)).universal;
-        self.bdd.support(f).iter().copied().filter(universal).collect()
-    }
-
-    /// The conjunction of states as text; empty if none of them is known as a formula.
-    pub fn name(&mut self, states: &[Bdd]) -> String {
-        let mut parts = Vec::new();
-        for state in states {
-            let Some(&origin) = self.origins.get(state) else { return String::new() };
-            let Some(clauses) = self.minimal_clauses(origin, MOST_CLAUSES) else { return String::new() };
-            let mut disjuncts = Vec::new();
-            for clause in clauses {
-                let atoms: Vec<_> = clause.iter().map(|v| self.atom(*v)).collect();
-                disjuncts.push(self.store.and(atoms));
-            }
-            parts.push(self.store.or(disjuncts));
-        }
-        let all = self.store.and(parts);
-        let all = self.simplifier.simplify(&mut self.store, all);
-        self.store.formula(all, LONGEST_NAME).map_or_else(String::new, |formula| formula.to_string())
+    /// The variables nx(ψ) of `f` with a ψ of such traits.
+    pub fn variables_with(&self, f: Bdd, wanted: impl Fn(Traits) -> bool) -> Vec<Variable> {
+        let wanted = |v: &Variable| *v >= self.propositions && wanted(self.store.traits(self.atom(*v)));
+        self.bdd.support(f).iter().copied().filter(wanted).collect()
     }
 }
-
-/// States that are a disjunction of more clauses, or formulas with more nodes, get no name.
-const MOST_CLAUSES: usize = 12;
-const LONGEST_NAME: usize = 40;
