@@ -223,8 +223,8 @@ impl Store {
             Node::WeakUntil(a, b) => self.dual(a, b, Store::strong_release),
             Node::StrongRelease(a, b) => self.dual(a, b, Store::weak_until),
         };
+        // Not the other way round: the negation may be simpler than the dual of `id`, and its own negation simpler than `id`.
         self.negations.insert(id, negation);
-        self.negations.insert(negation, id);
         negation
     }
 

@@ -83,7 +83,12 @@ fn shared(file: &str) -> Option<Vec<Formula>> {
 /// Formulas on which a construction was wrong once, by each of them.
 #[test]
 fn of_formulas_that_were_wrong_once() {
-    for text in ["G F (F (c ^ G (a <-> (c <-> F c))) <-> G c M b)"] {
+    for text in [
+        "G F (F (c ^ G (a <-> (c <-> F c))) <-> G c M b)",
+        // A disjunction that is seen to be valid only when it is negated.
+        "(F G a | G F !a) & F (b & X c)",
+        "G (!b | (a U (F G a | F G c | G F !a)))",
+    ] {
         let formula = Formula::parse(text).unwrap();
         for construction in [Construction::All, Construction::Symmetric, Construction::Split, Construction::Asymmetric] {
             let automaton = translate(&formula, &TranslateOptions { construction, ..TranslateOptions::default() }).unwrap();

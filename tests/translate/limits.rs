@@ -1,7 +1,7 @@
 //! Many subformulas that forget every prefix: `F G` and `G F` of many propositions give automata of linear size, in little time.
 
-use super::words::difference;
-use ltl_rover::automaton::translate::{TranslateOptions, translate_counting};
+use super::words::{all, difference, random};
+use ltl_rover::automaton::translate::{TranslateOptions, translate, translate_counting};
 use ltl_rover::labels::{Labels, Propositions};
 use ltl_rover::ltl::{Evaluator, Formula, Lasso};
 use ltl_rover::rng::{Purpose, Rng};
@@ -75,5 +75,38 @@ fn take_as_many_states_as_they_are() {
             assert!((1..words.len()).contains(&satisfied), "{formula}: {satisfied} words satisfy it");
             assert_eq!(difference(&automaton, &formula, words.into_iter()), None, "{formula}");
         }
+    }
+}
+
+/// `F G` and `G F` of small formulas over a, b, c, joined and nested at random, with opposites among them.
+fn mixture(depth: usize, rng: &mut Rng) -> String {
+    let literal = |rng: &mut Rng| ["a", "!a", "b", "!b", "c", "!c"][rng.below(6)];
+    let (x, y) = (literal(rng), literal(rng));
+    if depth == 0 {
+        let inner = [x.to_owned(), format!("({x} | {y})"), format!("({x} & {y})"), format!("({x} | X {y})")];
+        return format!("{} {}", ["F G", "G F"][rng.below(2)], inner[rng.below(4)]);
+    }
+    let parts: Vec<String> = (0..1 + rng.below(4)).map(|_| mixture(depth - 1, rng)).collect();
+    let joined = parts.join([" & ", " | "][rng.below(2)]);
+    match rng.below(8) {
+        0 => format!("({joined}) & F {x}"),
+        1 => format!("({joined}) | F {x}"),
+        2 => format!("({x} U ({joined}))"),
+        3 => format!("G ({x} | {joined})"),
+        4 => format!("F ({x} & ({joined}))"),
+        5 => format!("!({joined})"),
+        _ => format!("({joined})"),
+    }
+}
+
+#[test]
+fn mixed_at_random_accept_what_they_should() {
+    let mut rng = Rng::new(8, Purpose::Tool);
+    for k in 0..if cfg!(debug_assertions) { 120 } else { 2000 } {
+        let formula = Formula::parse(&mixture(1 + k % 2, &mut rng)).unwrap();
+        let automaton = translate(&formula, &TranslateOptions::default()).unwrap_or_else(|error| panic!("{formula}: {error}"));
+        let propositions = automaton.propositions().len();
+        let words = all(propositions, if propositions < 3 { 3 } else { 2 }).chain(random(propositions, 40, k as u64));
+        assert_eq!(difference(&automaton, &formula, words), None, "{formula}");
     }
 }
