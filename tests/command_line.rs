@@ -55,3 +55,23 @@ fn a_reader_that_leaves_early_ends_the_program_without_a_word() {
     assert_eq!(String::from_utf8(done.stderr).unwrap(), "");
     assert!(done.status.success());
 }
+
+#[test]
+fn eval_writes_a_row_for_every_episode() {
+    let file = std::env::temp_dir().join(format!("ltl-rover-episodes-{}.csv", std::process::id()));
+    let policy = "assets/policies/ball_pass_b1.safetensors";
+    let done = ltl_rover(&["eval", policy, "--runs", "3", "--max-steps", "20", "--json", "--episodes", file.to_str().unwrap()]);
+    let table = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    let summed: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "episode,start x,start y,start velocity x,start velocity y,success,rounds,first_round_steps,steps,sink,total_reward"
+    );
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 3);
+    let successes = rows.iter().filter(|row| row[5] == "true").count();
+    assert_eq!(summed["successes"], successes);
+    assert!(rows.iter().enumerate().all(|(k, row)| row[0] == k.to_string() && row[1].parse::<f32>().unwrap() >= 0.0));
+}

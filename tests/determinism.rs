@@ -173,3 +173,25 @@ fn damaged_checkpoints_are_errors() {
         assert!(open(&changed).is_err(), "`{new}` is refused");
     }
 }
+
+#[test]
+fn a_training_can_start_from_the_networks_of_another_one() {
+    let setup = setup("ball_pass_b1", &[]);
+    let mut teacher = setup.run(1);
+    advance(&mut teacher, 400);
+    let policy = teacher.trainer().learner().policy();
+    let mut pupil = setup.run(2);
+    assert_ne!(pupil.trainer().learner().policy(), policy);
+    pupil.trainer_mut().start_from(&policy).unwrap();
+    for (own, given) in pupil.trainer().learner().policy().iter().zip(&policy) {
+        for tensor in own {
+            // The targets begin as copies of the networks themselves, not of the other run's targets.
+            let name = tensor.name.replace("_target.", ".");
+            assert_eq!(tensor.values, given.iter().find(|t| t.name == name).unwrap().values, "{}", tensor.name);
+        }
+    }
+    advance(&mut pupil, 400);
+    let misfit = self::setup("ball_pass_b1", &["learner.hidden=[9]"]);
+    let refused = misfit.run(1).trainer_mut().start_from(&policy).unwrap_err();
+    assert!(refused.contains("actor"), "{refused}");
+}

@@ -4,7 +4,7 @@ use super::card;
 use super::failure::Failure;
 use super::files;
 use super::output::outln;
-use crate::eval::{Evaluation, RolloutSettings, evaluate};
+use crate::eval::{Evaluation, Rollout, RolloutSettings, episodes_seen};
 use crate::product::Start;
 use clap::Args;
 use std::path::PathBuf;
@@ -18,6 +18,7 @@ use std::process::ExitCode;
   ltl-rover eval runs/b1/policy.safetensors --seed 7
   ltl-rover eval runs/b1 --start initial --runs 1
   ltl-rover eval runs/b1/policy.safetensors --card runs/b1/policy.md
+  ltl-rover eval runs/b1 --episodes runs/b1/judged.csv
 
 An episode succeeds if it completes at least one round of all accepting sets within its steps and never enters a sink: a state from
 which the automaton cannot accept, or the end of the environment (the arena left, the pole fallen).
@@ -42,6 +43,9 @@ pub struct Eval {
     /// Write a model card: what the policy is, how it was trained, what these episodes have shown.
     #[arg(long, value_name = "FILE.md")]
     card: Option<PathBuf>,
+    /// Write a table with a row per episode: where it began, in physical units, and how it went.
+    #[arg(long, value_name = "FILE.csv")]
+    episodes: Option<PathBuf>,
     /// One JSON object.
     #[arg(long)]
     json: bool,
@@ -58,7 +62,13 @@ impl Eval {
         let task = setup.rollout_settings();
         let (max_steps, start) = (self.max_steps.unwrap_or(task.max_steps), self.start.unwrap_or(task.start));
         let settings = RolloutSettings { max_steps, start };
-        let e = evaluate(&mut setup.rollout_under(settings, self.seed), &mut learner, runs, self.seed);
+        let mut rollout = setup.rollout_under(settings, self.seed);
+        let mut table = header(&rollout);
+        let played = episodes_seen(&mut rollout, &mut learner, runs, None, self.seed, &mut |rollout| row(rollout, &mut table));
+        let e = Evaluation::of(&played, self.seed);
+        if let Some(file) = &self.episodes {
+            files::write(file, table)?;
+        }
         if let Some(file) = &self.card {
             let text = card::card(&files::checkpoint(&self.run)?, &setup, &learner, (&e, settings));
             files::write(file, text)?;
@@ -89,6 +99,23 @@ impl Eval {
         outln!("starts         {start}, seed {}", e.seed);
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// The names of the columns of the table of episodes.
+fn header(rollout: &Rollout) -> String {
+    let channels = &rollout.product().environment().spec().state;
+    let start: String = channels.iter().map(|channel| format!("start {},", channel.name)).collect();
+    format!("episode,{start}success,rounds,first_round_steps,steps,sink,total_reward\n")
+}
+
+/// Adds the episode that is over to the table.
+fn row(rollout: &Rollout, table: &mut String) {
+    let e = rollout.episode();
+    let episode = table.lines().count() - 1;
+    let start: String = rollout.start_state().iter().map(|x| format!("{x},")).collect();
+    let first = e.first_round_steps.map_or(String::new(), |steps| steps.to_string());
+    let (success, rounds, steps, sink) = (e.success(), e.rounds, e.steps, e.sink);
+    table.push_str(&format!("{episode},{start}{success},{rounds},{first},{steps},{sink},{}\n", e.total_reward));
 }
 
 /// An evaluation with its interval as `[low, high]`.

@@ -23,6 +23,7 @@ use std::time::Instant;
   ltl-rover train specs/ball_pass_b1.toml --set learner.modules=one --out runs/b1-standard
   ltl-rover train specs/cart_pole_c1.toml --steps 20000 --json | tail -n 1
   ltl-rover train specs/ball_pass_b1.toml --out runs/b1 --resume
+  ltl-rover train specs/melas.toml --from runs/melas --set training.max_steps=20 --out runs/melas-finer
 
 The folder receives task.toml, config.toml (all numbers, resolved), checkpoint.safetensors, policy.safetensors, episodes.csv,
 progress.csv, progress.jsonl, evaluations.csv, summary.json and the reward curves.")]
@@ -48,6 +49,10 @@ pub struct Train {
     /// Go on from the checkpoint in the run's folder.
     #[arg(long)]
     resume: bool,
+    /// Start with the networks of this run, checkpoint or policy file, whatever recipe they were trained by; their shapes must be
+    /// the recipe's. Replays, optimisers and schedules begin anew.
+    #[arg(long, value_name = "RUN", conflicts_with = "resume")]
+    from: Option<PathBuf>,
     /// Keep the replays in the checkpoint, so that --resume goes on bit by bit (a larger file).
     #[arg(long)]
     save_replay: bool,
@@ -167,7 +172,11 @@ impl Train {
 
     fn fresh(&self) -> Result<(Setup, Run), Failure> {
         let setup = files::open(&self.task, &self.preset, &self.overrides())?;
-        let run = setup.run(self.seed);
+        let mut run = setup.run(self.seed);
+        if let Some(file) = &self.from {
+            let policy = files::checkpoint(file)?.policy(run.trainer().learner().modules().len());
+            run.trainer_mut().start_from(&policy).map_err(|e| Failure::file(file, e))?;
+        }
         Ok((setup, run))
     }
 

@@ -64,12 +64,25 @@ pub fn episodes(
     failures_allowed: Option<u32>,
     seed: u64,
 ) -> Vec<Episode> {
+    episodes_seen(rollout, policy, runs, failures_allowed, seed, &mut |_| ())
+}
+
+/// [`episodes`] with a look at each as it stands when it is over.
+pub fn episodes_seen(
+    rollout: &mut Rollout,
+    policy: &mut dyn Policy,
+    runs: u32,
+    failures_allowed: Option<u32>,
+    seed: u64,
+    seen: &mut dyn FnMut(&Rollout),
+) -> Vec<Episode> {
     let mut seeds = Rng::new(seed, Purpose::Evaluation);
     let mut played = Vec::new();
     let mut failures = 0;
     for _ in 0..runs {
         rollout.restart(seeds.bits());
         let episode = rollout.finish(policy);
+        seen(rollout);
         failures += u32::from(!episode.success());
         played.push(episode);
         if failures_allowed.is_some_and(|allowed| failures > allowed) {

@@ -4,6 +4,6 @@ mod evaluation;
 mod rollout;
 mod statistics;
 
-pub use evaluation::{Evaluation, episodes, evaluate};
+pub use evaluation::{Evaluation, episodes, episodes_seen, evaluate};
 pub use rollout::{Episode, Rollout, RolloutSettings};
 pub use statistics::{Interval, clopper_pearson, interquartile_mean, mean, stratified_bootstrap};

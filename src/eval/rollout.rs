@@ -65,6 +65,7 @@ pub struct Rollout {
     view: View,
     control: Vec<f32>,
     start: ProductStart,
+    start_state: Vec<f32>,
     episode: Episode,
 }
 
@@ -75,7 +76,9 @@ impl Rollout {
         let view = View::new(&product);
         let mut rng = Rng::new(seed, Purpose::Evaluation);
         let start = product.reset(settings.start, &mut rng);
-        let mut rollout = Rollout { product, reward, settings, rng, view, control, start, episode: Episode::default() };
+        let start_state = vec![];
+        let mut rollout =
+            Rollout { product, reward, settings, rng, view, control, start, start_state, episode: Episode::default() };
         rollout.begin(start);
         rollout
     }
@@ -99,6 +102,8 @@ impl Rollout {
     fn begin(&mut self, start: ProductStart) {
         let closes_round = start.closes_round;
         self.start = start;
+        self.start_state.clear();
+        self.start_state.extend_from_slice(self.product.environment().state());
         self.control.fill(0.0);
         self.episode = Episode {
             rounds: u32::from(closes_round),
@@ -132,6 +137,11 @@ impl Rollout {
     /// How the episode began.
     pub fn start(&self) -> &ProductStart {
         &self.start
+    }
+
+    /// The state of the environment in which this episode began, in physical units.
+    pub fn start_state(&self) -> &[f32] {
+        &self.start_state
     }
 
     /// How the episode went so far.

@@ -3,6 +3,7 @@
 use super::settings::{EmbeddedStart, TrainingSettings};
 use crate::agent::{Learner, ModularDdpg, Transition, Update, View};
 use crate::automaton::EmbeddedState;
+use crate::nn::NetworkTensor;
 use crate::product::{Chosen, EpMdp, Move, MoveKind, ProductStart, ProductStep, Reward, RewardParts};
 use crate::rng::{Purpose, Rng};
 use serde::Serialize;
@@ -202,6 +203,21 @@ impl Trainer {
     /// Changes the budget of environment steps.
     pub fn set_budget(&mut self, steps: u64) {
         self.settings.steps = steps;
+    }
+
+    /// Takes over networks that [`ModularDdpg::policy`] gave, for further training: the target networks become copies of them.
+    ///
+    /// # Errors
+    /// A sentence naming what does not fit.
+    pub fn start_from(&mut self, policy: &[Vec<NetworkTensor>]) -> Result<(), String> {
+        self.learner.load_policy(policy)?;
+        let target = |tensor: &NetworkTensor| {
+            let (role, rest) = tensor.name.split_once('.')?;
+            let trained = !role.ends_with("_target") && !rest.starts_with("adam.");
+            trained.then(|| NetworkTensor { name: format!("{role}_target.{rest}"), ..tensor.clone() })
+        };
+        let targets: Vec<Vec<NetworkTensor>> = policy.iter().map(|module| module.iter().filter_map(target).collect()).collect();
+        self.learner.load_policy(&targets)
     }
 
     /// The product, where it stands.
