@@ -1,8 +1,8 @@
 //! Module maps and network inputs: modules per accepting set compete by their values, Fourier features are sines and cosines.
 
 use ltl_rover::agent::{
-    Encoder, ExplorationSettings, Learner, LearnerSettings, ModularDdpg, ModuleMap, Modules, NoiseSettings, Policy,
-    Replays, Schedule, Situation, Sizes, Transition,
+    Encoder, ExplorationSettings, Learner, LearnerSettings, ModularDdpg, ModuleMap, Modules, NoiseSettings, Policy, Replays,
+    Schedule, Situation, Sizes, Transition,
 };
 use ltl_rover::automaton::{EmbeddedState, Embedding, FrontierRule, Marks, StateTracking, hoa};
 use ltl_rover::env::Outcome;
