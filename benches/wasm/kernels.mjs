@@ -1,17 +1,5 @@
 // Times the WebAssembly kernel under Node: one line of JSON in ({what, hidden, rows, count}), one line out (seconds for one).
-// usage: node kernels.mjs MODULE.wasm
-import { readFileSync } from "node:fs";
-import { createInterface } from "node:readline";
-
-const module = await WebAssembly.compile(readFileSync(process.argv.at(-1)));
-// The timed functions call nothing outside; imports that other parts of the crate's dependencies declare are not there.
-const imports = {};
-for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-  (imports[from] ??= {})[name] = () => {
-    throw new Error(`${from}.${name} was called`);
-  };
-}
-const { exports } = await WebAssembly.instantiate(module, imports);
+// Behind load.mjs.
 
 // What prepares each measure (its answer names what to run it on) and what runs it.
 const measures = {
@@ -22,7 +10,7 @@ const measures = {
 };
 const prepared = new Map();
 
-for await (const line of createInterface({ input: process.stdin })) {
+for await (const line of questions) {
   const { count, ...measure } = JSON.parse(line);
   const { prepare, run } = measures[measure.what];
   const key = JSON.stringify(measure);

@@ -1,17 +1,5 @@
 // Times the WebAssembly translator under Node: one line of JSON in ({formula, rounds}), one line out ({seconds, states, sets, jumps}).
-// usage: node translate.mjs MODULE.wasm
-import { readFileSync } from "node:fs";
-import { createInterface } from "node:readline";
-
-const module = await WebAssembly.compile(readFileSync(process.argv.at(-1)));
-// The translator calls nothing outside; imports that other parts of the crate's dependencies declare are not there.
-const imports = {};
-for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-  (imports[from] ??= {})[name] = () => {
-    throw new Error(`${from}.${name} was called`);
-  };
-}
-const { exports } = await WebAssembly.instantiate(module, imports);
+// Behind load.mjs.
 
 function write(text) {
   const bytes = new TextEncoder().encode(text);
@@ -24,7 +12,7 @@ function write(text) {
 write("G (a -> (b U c)) & (G F d -> G F e)");
 for (let i = 0; i < 100; i++) exports.run();
 
-for await (const line of createInterface({ input: process.stdin })) {
+for await (const line of questions) {
   const { formula, rounds } = JSON.parse(line);
   write(formula);
   let [seconds, states] = [Infinity, 0];

@@ -53,11 +53,11 @@ pub struct ModularDdpg {
     /// The module that was in charge of x_t, until the updates of that step are done.
     pub(super) current: Option<usize>,
     /// The module that the last look at a situation put in charge.
-    pub(super) chosen: Option<usize>,
+    chosen: Option<usize>,
     /// Embedded states from which counterfactual samples read their first letter; empty if they are too many to list.
     listed: Vec<EmbeddedState>,
     batch: Bootstrap,
-    input: Vec<f32>,
+    pub(super) input: Vec<f32>,
 }
 
 impl ModularDdpg {
@@ -166,35 +166,9 @@ impl ModularDdpg {
         self.modules.iter_mut().zip(policy).try_for_each(|(module, tensors)| module.networks.load(tensors))
     }
 
-    /// Q(x, π(x)) of the module in charge, in units of unscaled rewards; `None` in a sink.
-    pub fn value(&mut self, observation: &[f32], at: EmbeddedState) -> Option<f32> {
-        self.best(observation, at).map(|(_, value)| value)
-    }
-
-    /// The module in charge of x = (`observation`, `at`): of several that compete, the one whose Q(x, π(x)) is greatest, and of equal
-    /// ones the first. `None` in a sink.
-    pub fn in_charge(&mut self, observation: &[f32], at: EmbeddedState) -> Option<usize> {
-        self.index.of(at).or_else(|| self.best(observation, at).map(|(module, _)| module))
-    }
-
     /// The module that chose last; `None` before the first choice.
     pub fn acting(&self) -> Option<usize> {
         self.chosen
-    }
-
-    /// The module in charge, and what it promises in units of unscaled rewards.
-    fn best(&mut self, observation: &[f32], at: EmbeddedState) -> Option<(usize, f32)> {
-        let mut best: Option<(usize, f32)> = None;
-        for (module, at) in self.index.candidates(at) {
-            self.input.clear();
-            self.encoder.push(observation, at, &mut self.input);
-            let mut value = [0.0];
-            self.modules[module].networks.values(&self.input, &mut value);
-            if best.is_none_or(|(_, most)| value[0] > most) {
-                best = Some((module, value[0]));
-            }
-        }
-        best.map(|(module, value)| (module, value / self.settings.reward_scale))
     }
 
     /// The rates of the optimisers at this step of their schedules.
@@ -303,9 +277,7 @@ impl Policy for ModularDdpg {
         control.fill(0.0);
         self.chosen = self.in_charge(now.observation, now.at);
         if let Some(module) = self.chosen {
-            self.input.clear();
-            self.encoder.push(now.observation, now.at, &mut self.input);
-            self.modules[module].networks.act(&self.input, control);
+            self.control_of(module, now.observation, now.at, control);
             if !now.jumps.is_empty() {
                 best = self.value(now.observation, now.at).unwrap_or(best);
             }

@@ -63,11 +63,13 @@ impl Eval {
         let (max_steps, start) = (self.max_steps.unwrap_or(task.max_steps), self.start.unwrap_or(task.start));
         let settings = RolloutSettings { max_steps, start };
         let mut rollout = setup.rollout_under(settings, self.seed);
-        let mut table = header(&rollout);
-        let played = episodes_seen(&mut rollout, &mut learner, runs, None, self.seed, &mut |rollout| row(rollout, &mut table));
+        let mut rows = vec![header(&rollout)];
+        let played = episodes_seen(&mut rollout, &mut learner, runs, None, self.seed, &mut |rollout| {
+            rows.push(row(rows.len() - 1, rollout));
+        });
         let e = Evaluation::of(&played, self.seed);
         if let Some(file) = &self.episodes {
-            files::write(file, table)?;
+            files::write(file, rows.concat())?;
         }
         if let Some(file) = &self.card {
             let text = card::card(&files::checkpoint(&self.run)?, &setup, &learner, (&e, settings));
@@ -108,14 +110,13 @@ fn header(rollout: &Rollout) -> String {
     format!("episode,{start}success,rounds,first_round_steps,steps,sink,total_reward\n")
 }
 
-/// Adds the episode that is over to the table.
-fn row(rollout: &Rollout, table: &mut String) {
+/// The row of the episode that is over, the `episode`th from 0.
+fn row(episode: usize, rollout: &Rollout) -> String {
     let e = rollout.episode();
-    let episode = table.lines().count() - 1;
     let start: String = rollout.start_state().iter().map(|x| format!("{x},")).collect();
     let first = e.first_round_steps.map_or(String::new(), |steps| steps.to_string());
     let (success, rounds, steps, sink) = (e.success(), e.rounds, e.steps, e.sink);
-    table.push_str(&format!("{episode},{start}{success},{rounds},{first},{steps},{sink},{}\n", e.total_reward));
+    format!("{episode},{start}{success},{rounds},{first},{steps},{sink},{}\n", e.total_reward)
 }
 
 /// An evaluation with its interval as `[low, high]`.

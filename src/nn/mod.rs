@@ -20,4 +20,4 @@ pub mod workload;
 
 pub use actor_critic::{ActorCritic, Batch, Critics, LayerNorm, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
 pub use record::{Record, RecordError};
-pub use tensors::{Role, Widths, check_tensors, initial_tensors, tensor_shapes};
+pub use tensors::{Role, Widths, check_tensors, initial_tensors, target_of, tensor_shapes};

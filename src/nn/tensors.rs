@@ -120,11 +120,15 @@ pub fn initial_tensors(shape: &NetworkShape, rng: &mut Rng) -> Vec<NetworkTensor
             };
             all.push(NetworkTensor { name: format!("{}.{tensor}", role.name()), shape: tensor_shape, values });
         }
-        let targets: Vec<NetworkTensor> =
-            all[start..].iter().map(|own| NetworkTensor { name: own.name.replacen('.', "_target.", 1), ..own.clone() }).collect();
+        let targets: Vec<NetworkTensor> = all[start..].iter().map(target_of).collect();
         all.extend(targets);
     }
     all
+}
+
+/// The tensor of a target network that is equal to `own`, one of a trained network.
+pub fn target_of(own: &NetworkTensor) -> NetworkTensor {
+    NetworkTensor { name: own.name.replacen('.', "_target.", 1), ..own.clone() }
 }
 
 /// Whether every tensor is one of a module of this shape.

@@ -3,7 +3,7 @@
 use super::settings::{EmbeddedStart, TrainingSettings};
 use crate::agent::{Learner, ModularDdpg, Transition, Update, View};
 use crate::automaton::EmbeddedState;
-use crate::nn::NetworkTensor;
+use crate::nn::{NetworkTensor, target_of};
 use crate::product::{Chosen, EpMdp, Move, MoveKind, ProductStart, ProductStep, Reward, RewardParts};
 use crate::rng::{Purpose, Rng};
 use serde::Serialize;
@@ -211,12 +211,9 @@ impl Trainer {
     /// A sentence naming what does not fit.
     pub fn start_from(&mut self, policy: &[Vec<NetworkTensor>]) -> Result<(), String> {
         self.learner.load_policy(policy)?;
-        let target = |tensor: &NetworkTensor| {
-            let (role, rest) = tensor.name.split_once('.')?;
-            let trained = !role.ends_with("_target") && !rest.starts_with("adam.");
-            trained.then(|| NetworkTensor { name: format!("{role}_target.{rest}"), ..tensor.clone() })
-        };
-        let targets: Vec<Vec<NetworkTensor>> = policy.iter().map(|module| module.iter().filter_map(target).collect()).collect();
+        let trained = |tensor: &&NetworkTensor| !tensor.name.contains("_target.");
+        let targets: Vec<Vec<NetworkTensor>> =
+            policy.iter().map(|module| module.iter().filter(trained).map(target_of).collect()).collect();
         self.learner.load_policy(&targets)
     }
 

@@ -70,7 +70,7 @@ impl Bench {
         let mut contenders: Vec<Box<dyn Contender>> = Vec::new();
         contenders.extend(Native::all().into_iter().map(|native| Box::new(native) as Box<dyn Contender>));
         if let Some(module) = &self.wasm {
-            let node = node::Node::start(module).map_err(Failure::input)?;
+            let node = node::Kernels::start(module).map_err(Failure::input)?;
             contenders.insert(1, Box::new(node));
         }
         let mut report = Report::new(contenders.iter().map(|contender| contender.name().to_owned()).collect());

@@ -2,6 +2,8 @@
 // A page under test: the built page served on this machine, Chromium around it, and everything that went wrong in it.
 
 import { existsSync } from 'node:fs';
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
@@ -88,4 +90,13 @@ export async function untilKept(page, wanted) {
     if (Date.now() > end) throw new Error(`kept are ${steps} steps`);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
+}
+
+const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** What axe finds wrong in the parts of the page that a selector names, or in all of it. @param {Page} page @param {string} [where] @returns {Promise<string[]>} */
+export async function inaccessible(page, where) {
+  await page.evaluate(axe);
+  const found = await page.evaluate((where) => /** @type {any} */ (globalThis).axe.run(where ?? document), where);
+  return found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`);
 }

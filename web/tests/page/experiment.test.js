@@ -2,11 +2,8 @@
 // Part 4: variants side by side with the same seeds in parallel workers, bands, an evaluation that fills, the table of finished runs.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { SIZES, start, visit } from './browser.js';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+import { SIZES, inaccessible, start, visit } from './browser.js';
 
 /** @type {Awaited<ReturnType<typeof start>>} */
 let site;
@@ -50,9 +47,7 @@ for (const size of /** @type {const} */ (['wide', 'phone'])) {
     await page.waitForFunction(() => /[1-9][\d,]* of 300,000 steps/.test(document.getElementById('variants')?.textContent ?? ''));
     assert.equal(await page.locator('.variant').count(), 2);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= SIZES[size].width);
-    await page.evaluate(axe);
-    const found = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run('#compare-panel'));
-    assert.deepEqual(found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`), []);
+    assert.deepEqual(await inaccessible(page, '#compare-panel'), []);
     await page.click('#experiment-run');
     await page.waitForFunction(() => document.getElementById('variants')?.textContent?.includes('stopped'));
     assert.equal(await page.textContent('#experiment-run'), 'Run side by side');

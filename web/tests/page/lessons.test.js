@@ -1,13 +1,10 @@
 // @ts-check
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
 import { LESSONS } from '../../src/lessons/content/index.js';
 import { isQuestion } from '../../src/lessons/model.js';
-import { SIZES, start } from './browser.js';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+import { SIZES, inaccessible, start } from './browser.js';
 
 /** @typedef {import('playwright-core').Page} Page */
 
@@ -44,9 +41,7 @@ async function fits(page, room) {
 
 /** @param {Page} page @param {string} [root] */
 async function clean(page, root) {
-  await page.evaluate(axe);
-  const found = await page.evaluate((where) => /** @type {any} */ (globalThis).axe.run(where ?? document), root);
-  assert.deepEqual(found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`), []);
+  assert.deepEqual(await inaccessible(page, root), []);
 }
 
 /** Waits until the present question is set up. @param {Page} page */

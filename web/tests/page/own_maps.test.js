@@ -2,12 +2,9 @@
 // Maps of one's own: painted with pointer, touch and keys, made of pictures and files, trained on, sent as links.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { SIZES, number, start, visit } from './browser.js';
+import { SIZES, inaccessible, number, start, visit } from './browser.js';
 import { HOSTILE_MAPS, file, flat, png, shaded } from './files.js';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @type {Awaited<ReturnType<typeof start>>} */
@@ -80,9 +77,7 @@ test('painted with a finger on a phone: nothing overflows, axe finds nothing', a
   for (let k = 1; k <= 5; k++) await touch.send('Input.dispatchTouchEvent', { type: 'touchMove', ...at(0.1 + k * 0.04, 0.7) });
   await touch.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   await page.waitForFunction((old) => !document.querySelector('.brushes')?.textContent?.includes(`camp${old}`), before.camp);
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run('#painter'));
-  assert.deepEqual(found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`), []);
+  assert.deepEqual(await inaccessible(page, '#painter'), []);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth && (document.getElementById('painter')?.scrollWidth ?? 0) <= innerWidth));
   await use(page);
   assert.deepEqual(problems, []);

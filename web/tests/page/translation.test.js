@@ -1,12 +1,8 @@
 // @ts-check
 // Part 5: a formula is translated while it is typed; propositions are completed; an automaton is held against the formula.
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { SIZES, start, visit } from './browser.js';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+import { SIZES, inaccessible, start, visit } from './browser.js';
 
 /** @type {Awaited<ReturnType<typeof start>>} */
 let site;
@@ -26,9 +22,7 @@ for (const size of /** @type {const} */ (['wide', 'phone'])) {
     await page.waitForFunction(() => /guarantee/.test(document.getElementById('formula-facts')?.textContent ?? ''));
     assert.match((await page.textContent('#formula-facts')) ?? '', /\d+ states?.*1 accepting set/);
     assert.ok(await page.isVisible('#automaton-preview'));
-    await page.evaluate(axe);
-    const found = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run('#spec-panel, #automaton-panel'));
-    assert.deepEqual(found.violations.map((/** @type {any} */ v) => `${v.id}: ${v.nodes.map((/** @type {any} */ n) => n.html).join(' ')}`), []);
+    assert.deepEqual(await inaccessible(page, '#spec-panel, #automaton-panel'), []);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= SIZES[size].width);
     await page.focus('#formula');
     await page.keyboard.press('Escape');
@@ -73,9 +67,7 @@ test('propositions are completed from a list with their meaning, by keys, and pu
   assert.match((await page.textContent('#completions li')) ?? '', /^green.+/);
   await page.keyboard.press('ArrowDown');
   assert.equal(await page.getAttribute('#formula', 'aria-activedescendant'), 'completion-0');
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => /** @type {any} */ (globalThis).axe.run('.formula-field'));
-  assert.deepEqual(found.violations.map((/** @type {any} */ v) => v.id), []);
+  assert.deepEqual(await inaccessible(page, '.formula-field'), []);
   await page.keyboard.press('Enter');
   assert.equal(await page.inputValue('#formula'), 'G F green');
   assert.ok(await page.isHidden('#completions'));

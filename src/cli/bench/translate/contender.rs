@@ -1,10 +1,9 @@
 //! Who translates: this program, or its WebAssembly build under Node.
 
+use super::super::node::Node;
 use crate::automaton::translate::{Spent, TranslateOptions, translate_counting};
 use crate::ltl::Formula;
-use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Instant;
 
 /// The script that holds Node's clock.
@@ -70,46 +69,27 @@ fn processor_time() -> Option<f64> {
     Some(text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)
 }
 
-/// A Node process with the module loaded.
-pub struct Node {
-    child: Child,
-    questions: ChildStdin,
-    answers: BufReader<ChildStdout>,
-}
+/// The translator's build, `benches/wasm/translate.rs`, under Node.
+pub struct WebAssembly(Node);
 
-impl Node {
-    /// Starts Node with `module`, a build of `benches/wasm/translate.rs`.
+impl WebAssembly {
+    /// Starts Node with `module`.
     ///
     /// # Errors
     /// If the file is not there or Node does not start.
-    pub fn start(module: &Path) -> Result<Node, String> {
-        if !module.is_file() {
-            return Err(format!("there is no file {}", module.display()));
-        }
-        let mut child = Command::new("node")
-            .args(["--input-type=module", "--eval", SCRIPT, "--"])
-            .arg(module)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .map_err(|error| format!("node did not start: {error}"))?;
-        let questions = child.stdin.take().expect("it is piped");
-        let answers = BufReader::new(child.stdout.take().expect("it is piped"));
-        Ok(Node { child, questions, answers })
+    pub fn start(module: &Path) -> Result<WebAssembly, String> {
+        Node::start(module, SCRIPT).map(WebAssembly)
     }
 }
 
-impl Translates for Node {
+impl Translates for WebAssembly {
     fn name(&self) -> &'static str {
         "wasm"
     }
 
     fn best(&mut self, formula: &Formula, rounds: u32) -> Result<Outcome, String> {
-        let gone = |error: std::io::Error| format!("node went away: {error}");
         let question = serde_json::json!({ "formula": formula.to_string(), "rounds": rounds });
-        writeln!(self.questions, "{question}").map_err(gone)?;
-        let mut answer = String::new();
-        self.answers.read_line(&mut answer).map_err(gone)?;
+        let answer = self.0.ask(&question)?;
         let answer: serde_json::Value = serde_json::from_str(&answer).map_err(|_| format!("node answered {answer:?}"))?;
         let number = |key: &str| answer[key].as_f64().ok_or_else(|| format!("node answered {answer}"));
         let states = number("states")?;
@@ -120,12 +100,5 @@ impl Translates for Node {
             Ok(Size { states: states as usize, sets: count("sets")?, jumps: count("jumps")?, spent: Spent::default() })
         };
         Ok(Outcome { seconds: number("seconds")?, result })
-    }
-}
-
-impl Drop for Node {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }

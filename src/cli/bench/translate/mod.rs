@@ -9,7 +9,7 @@ use super::super::translate::{formulas_of, read_formula};
 use crate::cli::output::{out, outln};
 use crate::ltl::families;
 use clap::Args;
-use contender::{Native, Node, Translates};
+use contender::{Native, Translates, WebAssembly};
 use measured::{Goals, Measured, Set, reasons_of};
 use report::Report;
 use std::path::PathBuf;
@@ -64,7 +64,7 @@ impl Translate {
         let reasons = reasons_of(&self.reasons.as_ref().map(read).transpose()?.unwrap_or_default());
         let mut contenders: Vec<Box<dyn Translates>> = vec![Box::new(Native)];
         if let Some(module) = &self.wasm {
-            contenders.push(Box::new(Node::start(module).map_err(Failure::input)?));
+            contenders.push(Box::new(WebAssembly::start(module).map_err(Failure::input)?));
         }
         let mut report = Report { sets: vec![], wasm: self.wasm.is_some(), reasons };
         for set in self.sets()? {
