@@ -41,7 +41,7 @@ export function wireKeys(app) {
     const target = /** @type {HTMLElement} */ (event.target);
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     if (target.matches('input:not([type=radio], [type=range], [type=checkbox]), select, textarea, [role=option]')) return;
-    if (app.theatre.driver.press(event.key)) return event.preventDefault();
+    if (app.theatre.drive.driver.press(event.key)) return event.preventDefault();
     if (event.key === ' ' && target.matches('button, summary, label, [type=checkbox]')) return;
     if (event.key.startsWith('Arrow') && target.matches('input')) return;
     const act = keys[event.key];

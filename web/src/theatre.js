@@ -2,13 +2,13 @@
 // The theatre: what the stage and the views linked to it show at each moment, be it an episode that is played, training as it comes,
 // or a run that the user drives.
 
-import { byId, count, element, setText } from './dom.js';
+import { byId, element, setText } from './dom.js';
+import { Driving } from './driving.js';
 import { Player, Recorder, happenings } from './player.js';
-import { END, Frame } from './protocol.js';
+import { Frame } from './protocol.js';
 import { Transport } from './transport.js';
 import { draw } from './vendor.js';
 import { Automaton } from './views/automaton.js';
-import { Driver } from './views/drive.js';
 import { Frontier } from './views/frontier.js';
 import { EARLIER } from './views/ground.js';
 import { Reward } from './views/reward.js';
@@ -48,7 +48,7 @@ export class Theatre {
       discount: any('r-discount'), words: any('r-words'), total: any('r-total'),
     });
     this.timeline = new Timeline(byId('timeline', HTMLCanvasElement), (row) => this.seek(row));
-    this.driver = new Driver(this.canvas);
+    this.drive = new Driving(this);
     this.canvas.addEventListener('click', (event) => this.startAt(event.offsetX, event.offsetY));
 
     /** @type {Description | null} */
@@ -76,7 +76,6 @@ export class Theatre {
     this.earlier = [];
     this.episodeIndex = 0;
     this.asking = false;
-    this.driving = false;
     this.restedSince = 0;
     this.shownRow = -1;
     this.lastPaint = 0;
@@ -90,7 +89,7 @@ export class Theatre {
   reset() {
     this.episodeIndex = 0;
     this.asking = false;
-    this.driving = false;
+    this.drive.reset();
     this.restedSince = 0;
     this.shownRow = -1;
   }
@@ -186,11 +185,11 @@ export class Theatre {
     this.mode = mode;
     this.say('');
     this.transport.enable(this.playing !== null, mode !== 'training', this.playing !== null || mode === 'drive');
-    this.driver.activate(false);
+    this.drive.driver.activate(false);
     this.frontier.jumps(null, () => {});
     this.recorder = new Recorder();
     this.signals.tell('watch', mode);
-    if (mode === 'drive') this.beginDrive();
+    if (mode === 'drive') this.drive.begin();
     else if (mode === 'training') this.liveIsNew = this.live !== null;
     else if (this.player.episode && this.player.of === this.playing) this.take(this.player.episode);
     else this.nextEpisode();
@@ -202,7 +201,7 @@ export class Theatre {
     this.lastPaint = now;
     if (!this.description || this.held) return;
     if (this.playing) this.paintEpisode(now, seconds);
-    else if (this.mode === 'drive') this.driveOn(seconds);
+    else if (this.mode === 'drive') this.drive.on(seconds);
     else if (this.liveIsNew && this.live) this.paintLive(now, this.live);
     this.liveIsNew = false;
   }
@@ -244,7 +243,7 @@ export class Theatre {
 
   /** Another episode: of the policy that is watched, or of the user's own hand. */
   another() {
-    if (this.mode === 'drive') this.beginDrive();
+    if (this.mode === 'drive') this.drive.begin();
     else this.nextEpisode();
   }
 
@@ -330,8 +329,8 @@ export class Theatre {
 
   togglePlay() {
     if (this.mode === 'training') return;
-    if (this.mode === 'drive' && !this.driver.active) {
-      this.beginDrive();
+    if (this.mode === 'drive' && !this.drive.driver.active) {
+      this.drive.begin();
       return;
     }
     if (this.player.finished) this.player.position = 0;
@@ -345,7 +344,7 @@ export class Theatre {
     this.transport.playing(playing);
   }
 
-  // --- training and driving ---------------------------------------------------------------------------------------------------
+  // --- training and other runs that go on -------------------------------------------------------------------------------------
 
   /** @param {number} now @param {Frame} live */
   paintLive(now, live) {
@@ -363,50 +362,6 @@ export class Theatre {
     if (!episode || !this.description) return;
     this.timeline.load(episode, happenings(this.description.layout, episode));
     this.timeline.update(episode.rows - 1);
-  }
-
-  async beginDrive() {
-    const answer = await this.ask({ kind: 'begin_drive', index: this.episodeIndex++ });
-    if (!answer || answer.generation !== this.generation || this.mode !== 'drive') return;
-    this.recorder = new Recorder();
-    this.stage?.forget();
-    this.driver.activate(true);
-    this.setPlaying(true);
-    this.driving = false;
-    this.say('Push with the arrow keys, or press on the picture');
-    this.takeDriven(answer.data);
-  }
-
-  /** @param {number} seconds */
-  driveOn(seconds) {
-    const { player, driver, description, stage } = this;
-    if (!description || !stage || this.driving || !driver.active || !player.playing) return;
-    // Where time has no unit nothing moves by itself: the world waits for the hand.
-    if (description.environment.dt === 0 && !driver.pushes) return;
-    if (driver.tick(seconds, player.rowsPerSecond * Math.min(this.speed, 1))) this.driveStep(driver.control(description, stage), null);
-  }
-
-  /** @param {number[]} control @param {number | null} jump */
-  async driveStep(control, jump) {
-    this.driving = true;
-    const answer = await this.ask({ kind: 'drive', control, jump });
-    this.driving = false;
-    if (answer && answer.generation === this.generation && this.mode === 'drive') this.takeDriven(answer.data);
-  }
-
-  /** @param {Float32Array} data */
-  takeDriven(data) {
-    const frame = /** @type {Frame} */ (this.reader).at(data, 0);
-    this.recorder.add(frame);
-    this.paintLive(performance.now(), frame);
-    const still = this.description?.environment.action.map(() => 0) ?? [];
-    this.frontier.jumps(frame, (target) => this.driveStep(still, target));
-    if (frame.number('episode_step') > 0) this.say('');
-    const end = frame.number('end');
-    if (end === END.running) return;
-    this.driver.activate(false);
-    const what = end === END.terminated ? 'The run has ended' : 'Time is up';
-    this.say(`${what} after ${count(frame.number('episode_step'))} steps, ${count(frame.number('rounds'))} rounds. Space starts again.`);
   }
 
   // --- views ------------------------------------------------------------------------------------------------------------------
