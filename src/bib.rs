@@ -56,6 +56,9 @@ pub mod Yang2022 {}
 /// A. Barreto, W. Dabney, R. Munos, J. J. Hunt, T. Schaul, H. van Hasselt, D. Silver: *Successor Features for Transfer in
 /// Reinforcement Learning*, NeurIPS 2017 (generalised policy improvement).
 pub mod Barreto2017 {}
+/// M. Andrychowicz, F. Wolski, A. Ray, J. Schneider, R. Fong, P. Welinder, B. McGrew, J. Tobin, P. Abbeel, W. Zaremba: *Hindsight
+/// Experience Replay*, NeurIPS 2017.
+pub mod Andrychowicz2017 {}
 /// R. S. Sutton, A. G. Barto: *Reinforcement Learning: An Introduction*, second edition, MIT Press, 2018.
 pub mod SuttonBarto2018 {}
 /// S. Haddad, B. Monmege: *Interval Iteration Algorithm for MDPs and IMDPs*, Theoretical Computer Science 735, 2018.

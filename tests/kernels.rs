@@ -77,7 +77,8 @@ fn check(Pair { name, ours: other, theirs: plain, rows, updates, epsilon, tolera
     plain.load(&start).unwrap();
     other.load(&start).unwrap();
     check_tensors(name, &other.tensors(true), &start, 0.0);
-    let settings = OptimiserSettings { tau: 0.1, epsilon, ..OptimiserSettings::default() };
+    // A penalty of the size of the critic's slopes, so that both parts of the actor's gradient are seen.
+    let settings = OptimiserSettings { tau: 0.1, epsilon, saturation_penalty: 0.05, ..OptimiserSettings::default() };
 
     let data = Data::new(&shape, rows, rng);
     let run = |module: &mut dyn ActorCritic| {

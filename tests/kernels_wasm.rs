@@ -12,7 +12,7 @@ fn all_numbers(module: &mut dyn ActorCritic, rows: usize) -> Vec<Vec<f32>> {
     let shape = module.shape().clone();
     let mut rng = Rng::new(2, Purpose::Tool);
     let mut numbers = |count: usize| -> Vec<f32> { (0..count).map(|_| rng.uniform_in(-1.0, 1.0)).collect() };
-    let settings = OptimiserSettings { epsilon: 1e-4, tau: 0.1, ..OptimiserSettings::default() };
+    let settings = OptimiserSettings { epsilon: 1e-4, tau: 0.1, saturation_penalty: 0.05, ..OptimiserSettings::default() };
     let mut losses = Vec::new();
     for _ in 0..5 {
         let (observations, actions) = (numbers(rows * shape.observation), numbers(rows * shape.action));

@@ -177,6 +177,7 @@ impl ModularDdpg {
             actor_rate: self.settings.actor_rate.at(self.steps),
             critic_rate: self.settings.critic_rate.at(self.steps),
             tau: self.settings.tau,
+            saturation_penalty: self.settings.saturation_penalty,
             ..OptimiserSettings::default()
         }
     }

@@ -91,6 +91,10 @@ pub struct LearnerSettings {
     pub updated_module: UpdatedModule,
     /// Critic updates for each update of the actor and the targets; 1 is Algorithm 2.
     pub policy_delay: u32,
+    /// Weight of the mean square of what the actor's tanh is taken of, in the actor's loss: it keeps tanh from saturating, where the critic
+    /// can turn the actor no more ([Andrychowicz et al. 2017](crate::bib::Andrychowicz2017), appendix A); 0 switches it off. In
+    /// units of scaled rewards.
+    pub saturation_penalty: f32,
     /// Noise on the target actor's action.
     pub target_smoothing: TargetSmoothing,
     /// What rewards are multiplied by inside the learner; reported returns stay in the paper's units.
@@ -121,6 +125,7 @@ impl Default for LearnerSettings {
             update_every: 1,
             updated_module: UpdatedModule::Current,
             policy_delay: 1,
+            saturation_penalty: 0.0,
             target_smoothing: TargetSmoothing::default(),
             reward_scale: 1.0,
             exploration: ExplorationSettings::default(),

@@ -97,13 +97,24 @@ pub struct OptimiserSettings {
     pub epsilon: f32,
     /// τ of the soft update θ' ← τθ + (1−τ)θ'.
     pub tau: f32,
+    /// λ of the actor's loss −Q(x, tanh z) + λ·|z|², which keeps tanh from saturating
+    /// ([Andrychowicz et al. 2017](crate::bib::Andrychowicz2017), appendix A); 0 for DDPG.
+    pub saturation_penalty: f32,
 }
 
 impl Default for OptimiserSettings {
     /// Rates 1e-4 and 1e-3 and τ = 0.001 of [Lillicrap et al. 2016](crate::bib::Lillicrap2016) (its section 7), β₁ = 0.9,
     /// β₂ = 0.999, ε = 1e-8 of [Kingma & Ba 2015](crate::bib::KingmaBa2015) (its algorithm 1).
     fn default() -> OptimiserSettings {
-        OptimiserSettings { actor_rate: 1e-4, critic_rate: 1e-3, beta1: 0.9, beta2: 0.999, epsilon: 1e-8, tau: 1e-3 }
+        OptimiserSettings {
+            actor_rate: 1e-4,
+            critic_rate: 1e-3,
+            beta1: 0.9,
+            beta2: 0.999,
+            epsilon: 1e-8,
+            tau: 1e-3,
+            saturation_penalty: 0.0,
+        }
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
     let smoothing = [l.target_smoothing.sigma, l.target_smoothing.clip];
     let shown = |value: &dyn std::fmt::Debug| format!("{value:?}");
     let open = |v: f64| v > 0.0 && v < 1.0;
-    let rows: [(bool, &'static [&'static str], String, &str); 26] = [
+    let rows: [(bool, &'static [&'static str], String, &str); 27] = [
         (open(p.accepting_discount), &["product", "accepting_discount"], shown(&p.accepting_discount), "between 0 and 1"),
         (p.discount > 0.0 && p.discount <= 1.0, &["product", "discount"], shown(&p.discount), "above 0 and at most 1"),
         (p.sink_reward.abs() <= 1e6, &["product", "sink_reward"], shown(&p.sink_reward), "within ±1000000"),
@@ -46,6 +46,12 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
         (l.updates_per_step <= 100, &["learner", "updates_per_step"], shown(&l.updates_per_step), "0 to 100"),
         ((1..=10_000).contains(&l.update_every), &["learner", "update_every"], shown(&l.update_every), "1 to 10000"),
         ((1..=100).contains(&l.policy_delay), &["learner", "policy_delay"], shown(&l.policy_delay), "1 to 100"),
+        (
+            (0.0..=1e3).contains(&l.saturation_penalty),
+            &["learner", "saturation_penalty"],
+            shown(&l.saturation_penalty),
+            "0 to 1000",
+        ),
         (smoothing.iter().all(|v| (0.0..=2.0).contains(v)), &["learner", "target_smoothing"], shown(&smoothing), "0 to 2"),
         (l.reward_scale > 0.0 && l.reward_scale <= 1e6, &["learner", "reward_scale"], shown(&l.reward_scale), "0 to 1000000"),
         (l.counterfactual.samples <= 64, &["learner", "counterfactual"], shown(&l.counterfactual.samples), "0 to 64 samples"),

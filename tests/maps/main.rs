@@ -2,6 +2,7 @@
 
 mod files;
 mod pictures;
+mod survival;
 
 use ltl_rover::env::map::RoverMap;
 use ltl_rover::env::{Environment, Rover, Shape};

@@ -35,6 +35,8 @@ struct Workspace {
     by_value: Vec<f32>,
     /// rows × action: derivatives by the actions.
     by_action: Vec<f32>,
+    /// rows × action: what the actor's tanh was taken of.
+    sums: Vec<f32>,
 }
 
 /// Which parameters of a module to use.
@@ -98,14 +100,17 @@ impl Fused {
             gradient: Buffer::zeros(actor.len().max(critic.len())),
             by_value: vec![0.0; rows],
             by_action: vec![0.0; rows * self.shape.action],
+            sums: vec![0.0; rows * self.shape.action],
         };
     }
 
     /// π of the packed observations, in the actor's trace.
     fn run_actor(&mut self, which: Which, rows: usize) {
-        let Workspace { input, actor, .. } = &mut self.workspace;
+        let Workspace { input, actor, sums, .. } = &mut self.workspace;
         actor.forward(self.kernel, &self.actor.layout, of(&self.actor, which), input, rows);
-        actor.output[..rows * self.shape.action].iter_mut().for_each(|sum| *sum = libm::tanhf(*sum));
+        let sums = &mut sums[..rows * self.shape.action];
+        sums.copy_from_slice(&actor.output[..sums.len()]);
+        actor.output.iter_mut().zip(sums).for_each(|(action, sum)| *action = libm::tanhf(*sum));
     }
 
     /// Packs the actor's actions beside the observations.
@@ -188,7 +193,8 @@ impl Fused {
         self.run_actor(Which::Network, rows);
         self.join_actions(rows);
         let critic = &self.critics[0];
-        let Workspace { input, actor: trace, critic: valued, slopes, gradient, by_value, by_action, .. } = &mut self.workspace;
+        let Workspace { input, actor: trace, critic: valued, slopes, gradient, by_value, by_action, sums, .. } =
+            &mut self.workspace;
         let network = (&critic.layout, &*critic.parameters);
         valued.forward(self.kernel, network.0, network.1, input, rows);
         let loss = -valued.output[..rows].iter().map(|&q| f64::from(q)).sum::<f64>() / rows as f64;
@@ -196,7 +202,10 @@ impl Fused {
         slopes.backward(self.kernel, network, (valued, input), &by_value[..rows], &mut []);
         let by_action = &mut by_action[..rows * self.shape.action];
         slopes.by_input(self.kernel, network, self.shape.observation, rows, by_action);
-        by_action.iter_mut().zip(&trace.output).for_each(|(slope, action)| *slope *= 1.0 - action * action);
+        let penalty = settings.saturation_penalty * 2.0 / rows as f32;
+        for ((slope, action), sum) in by_action.iter_mut().zip(&trace.output).zip(&*sums) {
+            *slope = *slope * (1.0 - action * action) + penalty * sum;
+        }
         let network = (&self.actor.layout, &*self.actor.parameters);
         slopes.backward(self.kernel, network, (trace, input), by_action, gradient);
         self.actor.descend(self.kernel, gradient, settings.actor_rate, settings, Target::Follows);

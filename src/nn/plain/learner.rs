@@ -71,8 +71,9 @@ impl Plain {
         (loss, gradient)
     }
 
-    /// Minus the mean value of the actor's own actions by the first critic, and its gradient by the actor's parameters.
-    fn actor_gradient(&self, observations: &[f32]) -> (f64, Vec<Vec<f64>>) {
+    /// Minus the mean value of the actor's own actions by the first critic, and the gradient by the actor's parameters of that and the
+    /// penalty on saturation.
+    fn actor_gradient(&self, observations: &[f32], penalty: f64) -> (f64, Vec<Vec<f64>>) {
         let (actor, critic) = (&self.actor.network, &self.critics[0].network);
         let (mut loss, mut gradient) = (0.0, actor.zeros());
         let rows = (observations.len() / self.shape.observation) as f64;
@@ -81,7 +82,8 @@ impl Plain {
             let valued = critic.forward(&joined(observation, acted.output()));
             loss -= valued.output()[0] / rows;
             let by_input = critic.backward(&valued, &[-1.0 / rows], &mut critic.zeros());
-            actor.backward(&acted, &by_input[self.shape.observation..], &mut gradient);
+            let by_sums: Vec<f64> = acted.sums().iter().map(|z| 2.0 * penalty * z / rows).collect();
+            actor.backward_with_sums(&acted, &by_input[self.shape.observation..], &by_sums, &mut gradient);
         }
         (loss, gradient)
     }
@@ -131,7 +133,7 @@ impl ActorCritic for Plain {
             return Losses::default();
         }
         let critic = self.update_critic(batch, settings);
-        let (actor, gradient) = self.actor_gradient(batch.observations);
+        let (actor, gradient) = self.actor_gradient(batch.observations, f64::from(settings.saturation_penalty));
         self.actor.adam.step(&mut self.actor.network, &gradient, settings.actor_rate, settings);
         for trained in [&mut self.actor].into_iter().chain(&mut self.critics) {
             soft_update(&mut trained.target, &trained.network, settings.tau);

@@ -74,9 +74,16 @@ fn gradients_are_the_finite_differences_of_the_losses() {
             let (_, gradient) = plain.critic_gradient(&plain.critics[i].network, batch);
             check_gradient(&mut plain, find, &gradient, &|plain| plain.critic_gradient(&plain.critics[i].network, batch).0);
         }
-        let (_, gradient) = plain.actor_gradient(&observations);
-        let find: fn(&mut Plain) -> &mut Vec<Vec<f32>> = |plain| &mut plain.actor.network.tensors;
-        check_gradient(&mut plain, find, &gradient, &|plain| plain.actor_gradient(&observations).0);
+        for penalty in [0.0, 0.7] {
+            let (_, gradient) = plain.actor_gradient(&observations, penalty);
+            let find: fn(&mut Plain) -> &mut Vec<Vec<f32>> = |plain| &mut plain.actor.network.tensors;
+            let squares = |plain: &Plain| -> f64 {
+                let rows = observations.chunks_exact(3).map(|x| plain.actor.network.forward(&wide(x)));
+                rows.map(|trace| trace.output().iter().map(|a| libm::atanh(*a)).map(|z| z * z).sum::<f64>()).sum::<f64>() / 5.0
+            };
+            let loss = |plain: &Plain| plain.actor_gradient(&observations, penalty).0 + penalty * squares(plain);
+            check_gradient(&mut plain, find, &gradient, &loss);
+        }
     }
 }
 

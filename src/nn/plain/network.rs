@@ -28,6 +28,8 @@ pub struct Network {
 pub struct Trace {
     /// What each layer read; the last entry is what the network wrote.
     values: Vec<Vec<f64>>,
+    /// The sums of the last layer, before the output's function.
+    sums: Vec<f64>,
     /// Of each normalised layer: the normalised sums and one over their standard deviation.
     normalised: Vec<(Vec<f64>, f64)>,
 }
@@ -36,6 +38,11 @@ impl Trace {
     /// What the network wrote.
     pub fn output(&self) -> &[f64] {
         self.values.last().expect("a network has layers")
+    }
+
+    /// The sums of the last layer: what tanh was taken of.
+    pub fn sums(&self) -> &[f64] {
+        &self.sums
     }
 }
 
@@ -75,7 +82,7 @@ impl Network {
 
     /// The network's output for one row, with what the backward pass needs.
     pub fn forward(&self, input: &[f64]) -> Trace {
-        let mut trace = Trace { values: vec![input.to_vec()], normalised: Vec::new() };
+        let mut trace = Trace { values: vec![input.to_vec()], sums: Vec::new(), normalised: Vec::new() };
         for layer in 0..=self.last() {
             let x = &trace.values[layer];
             let [weight, bias] = [0, 1].map(|i| &self.tensors[self.first_tensor(layer) + i]);
@@ -87,6 +94,7 @@ impl Network {
                 }
             }
             if layer == self.last() {
+                trace.sums.clone_from(&sums);
                 if self.output == Output::Tanh {
                     sums.iter_mut().for_each(|sum| *sum = libm::tanh(*sum));
                 }
@@ -110,6 +118,11 @@ impl Network {
     /// Adds to `gradient` the derivative of a loss whose derivative by the network's output is `output`, and returns its
     /// derivative by the network's input.
     pub fn backward(&self, trace: &Trace, output: &[f64], gradient: &mut [Vec<f64>]) -> Vec<f64> {
+        self.backward_with_sums(trace, output, &[], gradient)
+    }
+
+    /// The same for a loss that depends on the sums of the last layer directly as well, with the derivative `by_sums`.
+    pub fn backward_with_sums(&self, trace: &Trace, output: &[f64], by_sums: &[f64], gradient: &mut [Vec<f64>]) -> Vec<f64> {
         let mut slope = output.to_vec();
         for layer in (0..=self.last()).rev() {
             let (x, y) = (&trace.values[layer], &trace.values[layer + 1]);
@@ -119,6 +132,7 @@ impl Network {
                 if self.output == Output::Tanh {
                     slope.iter_mut().zip(y).for_each(|(slope, y)| *slope *= 1.0 - y * y);
                 }
+                slope.iter_mut().zip(by_sums).for_each(|(slope, more)| *slope += more);
             } else {
                 slope.iter_mut().zip(y).for_each(|(slope, &y)| *slope = if y > 0.0 { *slope } else { 0.0 });
                 if self.widths.normalised {

@@ -2,6 +2,7 @@
 
 use burn::module::Module;
 use burn::optim::AdamConfig;
+use burn::tensor::activation::tanh;
 use burn::tensor::{Device, Gradients, Tensor, TensorData};
 
 use super::super::actor_critic::{ActorCritic, Batch, Losses, NetworkShape, NetworkTensor, OptimiserSettings};
@@ -148,11 +149,13 @@ impl ActorCritic for Reference {
         let critic = self.update_critic(batch, settings);
 
         let observations = self.observations(batch.observations);
-        let actions = self.actor.network.forward(observations.clone(), Output::Tanh);
+        let sums = self.actor.network.forward(observations.clone(), Output::Linear);
+        let penalty = sums.clone().square().sum() * (settings.saturation_penalty / batch.targets.len() as f32);
+        let actions = tanh(sums);
         // The critic is a constant here: gradients reach the actor through its input alone.
         let input = Tensor::cat(vec![observations.autodiff(), actions], 1);
         let loss = network(&self.critics[0]).forward(input, Output::Linear).mean().neg();
-        descend(&mut self.actor, &loss.backward(), settings.actor_rate, settings);
+        descend(&mut self.actor, &(loss.clone() + penalty).backward(), settings.actor_rate, settings);
         for trained in [&mut self.actor].into_iter().chain(&mut self.critics) {
             trained.target = trained.target.clone().moved(&trained.network, settings.tau);
         }
