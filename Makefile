@@ -79,6 +79,11 @@ bench: ## speed of the kernels, native and WebAssembly, as ratios in one run
 measure: page ## first movement, frames a second and memory of the page over ten minutes of training
 	@$(ENV) cd web && CHROMIUM="$$(chromium_path)" node measure.mjs
 
+.PHONY: compare-training
+compare-training: page ## training in the page against native training, in steps a second
+	@$(ENV) cargo build --quiet --release --no-default-features --features cli; \
+	cd web && LTL_ROVER="$$CARGO_TARGET_DIR/release/ltl-rover" CHROMIUM="$$(chromium_path)" node compare_training.mjs
+
 .PHONY: bench-translate
 bench-translate: ## sizes and times of translations, native and WebAssembly (SETS="FILE …" for formulas of your own)
 	@$(ENV) cargo build --quiet --release --no-default-features --features cli
