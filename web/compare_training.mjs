@@ -7,7 +7,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { SIZES, start } from './tests/page/browser.js';
+import { SIZES, number, start } from './tests/page/browser.js';
 
 const { values } = parseArgs({
   options: {
@@ -19,21 +19,20 @@ const program = process.env.LTL_ROVER;
 if (!program) throw new Error('LTL_ROVER must name the command line program');
 const seconds = Number(values.seconds);
 /** What is compared is training alone, and as long as is asked for. */
-const alone = ['training.evaluate_every=0', 'training.episodes=0', 'training.steps=1000000000', 'training.stop=budget'];
+const alone = ['training.evaluate_every=0', 'training.episodes=0', 'training.stop=budget'];
 
 /** Steps a second of the page between two looks. @param {import('playwright-core').Browser} browser @param {string} url @param {string} task */
 async function inThePage(browser, url, task) {
   const context = await browser.newContext({ viewport: SIZES.wide });
   const page = await context.newPage();
-  await page.goto(`${url}#task=${task}&set=${alone.join(';')}`);
+  await page.goto(`${url}#task=${task}&set=${[...alone, 'training.steps=1000000000'].join(';')}`);
   await page.waitForSelector('#automaton svg .node.current');
-  const steps = () => page.$eval('#n-steps', (node) => Number((node.textContent ?? '').replace(/[^\d.]/g, '')));
   await page.click('#train');
   // Past the warm-up, in which nothing is updated.
-  await page.waitForFunction(() => Number((document.getElementById('n-steps')?.textContent ?? '').replace(/[^\d.]/g, '')) > 3000);
-  const [from, began] = [await steps(), performance.now()];
+  while ((await number(page, 'n-steps')) <= 3000) await page.waitForTimeout(100);
+  const [from, began] = [await number(page, 'n-steps'), performance.now()];
   await page.waitForTimeout(1000 * seconds);
-  const rate = (1000 * ((await steps()) - from)) / (performance.now() - began);
+  const rate = (1000 * ((await number(page, 'n-steps')) - from)) / (performance.now() - began);
   await context.close();
   return rate;
 }
@@ -41,7 +40,7 @@ async function inThePage(browser, url, task) {
 /** Seconds of a native training of so many steps. @param {string} task @param {number} steps */
 function natively(task, steps) {
   const folder = mkdtempSync(join(tmpdir(), 'ltl-rover-'));
-  const set = ['training.evaluate_every=0', 'training.episodes=0', 'training.stop=budget'].flatMap((value) => ['--set', value]);
+  const set = alone.flatMap((value) => ['--set', value]);
   const began = performance.now();
   const spec = join(import.meta.dirname, '../specs', `${task}.toml`);
   const made = spawnSync(String(program), ['train', spec, '--steps', String(steps), '--log-every', '1000000000', '--quiet', '--out', join(folder, 'run'), ...set], { encoding: 'utf8' });

@@ -1,6 +1,6 @@
 //! No start on the shipped maps is hopeless: a controller that looks far enough never has to touch unsafe ground.
 
-use ltl_rover::env::map::RoverMap;
+use crate::shipped;
 
 /// Directions that are tried, and places looked at along the longest step.
 const DIRECTIONS: usize = 64;
@@ -11,7 +11,7 @@ const PLACES: usize = 20;
 #[test]
 fn from_every_free_cell_some_direction_is_safe_at_every_distance() {
     for name in ["victoria", "melas"] {
-        let map = RoverMap::from_json(RoverMap::shipped(name).unwrap(), None).unwrap();
+        let map = shipped(name);
         let hazard = map.hazard.expect("both maps have unsafe ground");
         let [columns, rows] = map.grid.size();
         let cell = map.grid.cell();
