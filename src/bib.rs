@@ -59,6 +59,9 @@ pub mod Barreto2017 {}
 /// M. Andrychowicz, F. Wolski, A. Ray, J. Schneider, R. Fong, P. Welinder, B. McGrew, J. Tobin, P. Abbeel, W. Zaremba: *Hindsight
 /// Experience Replay*, NeurIPS 2017.
 pub mod Andrychowicz2017 {}
+/// J. Tobin, R. Fong, A. Ray, J. Schneider, W. Zaremba, P. Abbeel: *Domain Randomization for Transferring Deep Neural Networks from
+/// Simulation to the Real World*, IROS 2017.
+pub mod Tobin2017 {}
 /// R. S. Sutton, A. G. Barto: *Reinforcement Learning: An Introduction*, second edition, MIT Press, 2018.
 pub mod SuttonBarto2018 {}
 /// S. Haddad, B. Monmege: *Interval Iteration Algorithm for MDPs and IMDPs*, Theoretical Computer Science 735, 2018.

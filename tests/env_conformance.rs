@@ -195,6 +195,20 @@ fn actions_are_clamped_and_nan_is_no_action() {
 }
 
 #[test]
+fn a_scaled_disturbance_is_of_another_size_or_there_is_none() {
+    for mut environment in all() {
+        let own = trace_hash(environment.as_mut(), 3, 500);
+        let mut scaled = environment.boxed_clone();
+        let there_is_one = scaled.scale_disturbance(1.5);
+        let mut copy = scaled.boxed_clone();
+        assert_eq!(trace_hash(copy.as_mut(), 3, 500) != own, there_is_one, "{}: copies keep the scale", environment.spec().name);
+        walk(scaled.as_mut(), 2_000, 4, |e| assert_in_range(e));
+        scaled.scale_disturbance(1.0);
+        assert_eq!(trace_hash(scaled.as_mut(), 3, 500), own);
+    }
+}
+
+#[test]
 fn a_copy_goes_its_own_way() {
     for mut environment in all() {
         let mut rng = Rng::new(8, Purpose::Tool);

@@ -1,6 +1,6 @@
 //! What each environment is by definition: its dynamics, labels and borders, against numbers from elsewhere.
 
-use ltl_rover::env::{BallPass, CartPole, Current, Environment, Islands, Outcome};
+use ltl_rover::env::{BallPass, CartPole, Current, Environment, Islands, Outcome, Rover};
 use ltl_rover::labels::Labels;
 use ltl_rover::rng::{Purpose, Rng};
 
@@ -170,6 +170,32 @@ fn islands_start_at_a() {
     assert_eq!(boat.labels(), Labels::only(0), "the shore belongs to the island");
     boat.set_state(&[4.001, 5.0]);
     assert_eq!(boat.labels(), Labels::EMPTY);
+}
+
+#[test]
+fn the_disturbance_scales_gusts_and_distances() {
+    // Standard deviations of 4 000 displacements: gusts are 0.05 m per axis; distances uniform on (0, 10] have 10/√12.
+    let deviation = |environment: &mut dyn Environment, from: [f32; 2], scale: f32| {
+        assert!(environment.scale_disturbance(scale));
+        let mut draws = rng();
+        let moved: Vec<f64> = (0..4_000)
+            .map(|_| {
+                environment.set_state(&from);
+                environment.step(&[0.0, 0.0], &mut draws);
+                f64::from(environment.state()[0] - from[0])
+            })
+            .collect();
+        let mean = moved.iter().sum::<f64>() / 4_000.0;
+        (moved.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 4_000.0).sqrt()
+    };
+    let mut rover = Rover::shipped("victoria").expect("a shipped map");
+    assert_eq!(rover.map().reach, 10.0);
+    for scale in [0.5, 1.0, 1.25, 3.0] {
+        let gust = deviation(&mut Islands::new(Current::None), [5.0, 5.0], scale);
+        assert!((gust / (0.05 * f64::from(scale)) - 1.0).abs() < 0.05, "{gust} m at {scale}");
+        let distance = deviation(&mut rover, [300.0, 200.0], scale);
+        assert!((distance * 12.0_f64.sqrt() / (10.0 * f64::from(scale)) - 1.0).abs() < 0.05, "{distance} at {scale}");
+    }
 }
 
 type Recorded = ([f32; 4], f32, [f32; 4], bool);

@@ -96,6 +96,11 @@ pub trait Environment: Send {
     fn reset_anywhere(&mut self, rng: &mut Rng) {
         self.reset(rng);
     }
+    /// Scales the random disturbance of later steps: 1 is the environment's own. Returns false, and changes nothing, where nothing
+    /// random disturbs a step.
+    fn scale_disturbance(&mut self, _factor: f32) -> bool {
+        false
+    }
     /// Applies `action`, one number in `[-1, 1]` per channel of [`EnvSpec::action`] (values outside are clamped; NaN counts as 0).
     fn step(&mut self, action: &[f32], rng: &mut Rng) -> Outcome;
     /// The state in physical units, one number per channel of [`EnvSpec::state`]: all that a view or a checkpoint needs.

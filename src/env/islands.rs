@@ -56,6 +56,8 @@ pub enum Current {
 pub struct Islands {
     spec: EnvSpec,
     current: Current,
+    /// Standard deviation of the gusts' displacement per step and axis, m.
+    gust: f32,
     /// x, y.
     state: [f32; 2],
 }
@@ -74,7 +76,7 @@ impl Islands {
             letters: vec![Labels::EMPTY, Labels::only(0), Labels::only(1)],
             dt: DT,
         };
-        Islands { spec, current, state: CENTRES[0] }
+        Islands { spec, current, gust: GUST, state: CENTRES[0] }
     }
 
     /// Where the current is.
@@ -142,10 +144,16 @@ impl Environment for Islands {
         self.state = [rng.uniform_in(0.0, SIDE), rng.uniform_in(0.0, SIDE)];
     }
 
+    /// The gusts' displacement is `factor` times as great.
+    fn scale_disturbance(&mut self, factor: f32) -> bool {
+        self.gust = factor * GUST;
+        true
+    }
+
     fn step(&mut self, action: &[f32], rng: &mut Rng) -> Outcome {
         let drift = self.drift();
         for axis in 0..2 {
-            let moved = self.state[axis] + DT * (SPEED * command(action[axis]) + drift[axis]) + GUST * rng.normal();
+            let moved = self.state[axis] + DT * (SPEED * command(action[axis]) + drift[axis]) + self.gust * rng.normal();
             self.state[axis] = moved.clamp(0.0, SIDE);
         }
         Outcome::Running

@@ -23,6 +23,8 @@ use std::sync::Arc;
 pub struct Rover {
     spec: EnvSpec,
     map: Arc<RoverMap>,
+    /// The greatest distance of a step, in the map's unit.
+    reach: f32,
     /// x, y.
     state: [f32; 2],
 }
@@ -42,7 +44,7 @@ impl Rover {
             dt: 0.0,
         };
         let state = map.grid.start(0.5, [0.5, 0.5]);
-        Rover { spec, map, state }
+        Rover { spec, reach: map.reach, map, state }
     }
 
     /// The environment on a shipped map ([`RoverMap::shipped_names`]); `None` for other names.
@@ -88,12 +90,18 @@ impl Environment for Rover {
         self.put(place);
     }
 
+    /// The distance of a step is drawn from (0, `factor`·D].
+    fn scale_disturbance(&mut self, factor: f32) -> bool {
+        self.reach = factor * self.map.reach;
+        true
+    }
+
     fn step(&mut self, action: &[f32], rng: &mut Rng) -> Outcome {
         let (x, y) = (command(action[0]), command(action[1]));
         // `sqrt` is correctly rounded on every target.
         let length = (x * x + y * y).sqrt();
         let direction = if length > 0.0 { [x / length, y / length] } else { [1.0, 0.0] };
-        let distance = self.map.reach * (1.0 - rng.uniform());
+        let distance = self.reach * (1.0 - rng.uniform());
         self.put([self.state[0] + distance * direction[0], self.state[1] + distance * direction[1]]);
         Outcome::Running
     }

@@ -121,6 +121,11 @@ impl EpMdp {
         self.begin()
     }
 
+    /// Scales the random disturbance of later steps ([`Environment::scale_disturbance`]); false where there is none.
+    pub fn scale_disturbance(&mut self, factor: f32) -> bool {
+        self.environment.scale_disturbance(factor)
+    }
+
     /// Starts an episode in a given state of the environment (physical units; clamped to its range).
     ///
     /// # Panics

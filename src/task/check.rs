@@ -30,7 +30,7 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
     let smoothing = [l.target_smoothing.sigma, l.target_smoothing.clip];
     let shown = |value: &dyn std::fmt::Debug| format!("{value:?}");
     let open = |v: f64| v > 0.0 && v < 1.0;
-    let rows: [(bool, &'static [&'static str], String, &str); 27] = [
+    let rows: [(bool, &'static [&'static str], String, &str); 28] = [
         (open(p.accepting_discount), &["product", "accepting_discount"], shown(&p.accepting_discount), "between 0 and 1"),
         (p.discount > 0.0 && p.discount <= 1.0, &["product", "discount"], shown(&p.discount), "above 0 and at most 1"),
         (p.sink_reward.abs() <= 1e6, &["product", "sink_reward"], shown(&p.sink_reward), "within ±1000000"),
@@ -67,6 +67,7 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
         (t.steps >= 1, &["training", "steps"], shown(&t.steps), "at least 1"),
         (t.evaluation_runs >= 1 || t.evaluate_every == 0, &["training", "evaluation_runs"], "0".into(), "at least 1"),
         (t.evaluation_runs <= 100_000, &["training", "evaluation_runs"], shown(&t.evaluation_runs), "at most 100000"),
+        ((0.0..=100.0).contains(&t.disturbance), &["training", "disturbance"], shown(&t.disturbance), "0 to 100"),
         (t.max_steps <= 10_000_000, &["training", "max_steps"], shown(&t.max_steps), "at most 10000000"),
     ];
     rows.into_iter().find(|(ok, ..)| !ok).map(|(_, path, found, allowed)| OutOfRange {

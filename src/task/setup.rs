@@ -64,6 +64,12 @@ impl Setup {
         let reward = LdgbaReward::new(section.reward(), &embedding).map_err(|e| error(&product_path, e.to_string()))?;
         let product = EpMdp::new(environment, embedding, &task.file.specification.labels)
             .map_err(|e| error(&["specification", "labels"], e.to_string()))?;
+        let disturbance = preset.training.disturbance;
+        if disturbance != 1.0 && !product.clone().scale_disturbance(disturbance) {
+            let name = product.environment().spec().name;
+            let message = format!("`disturbance` is {disturbance}, but nothing random disturbs a step of `{name}`; allowed is 1");
+            return Err(error(&["presets", preset_name, "training", "disturbance"], message));
+        }
         let setup = Setup { preset_name: preset_name.to_owned(), preset, hoa: None, product, reward: Arc::new(reward), task };
         setup.check_modules()?;
         Ok(setup)

@@ -43,6 +43,10 @@ pub struct TrainingSettings {
     pub start: Start,
     /// Where the automaton starts.
     pub embedded_start: EmbeddedStart,
+    /// What the environment's random disturbance is multiplied by while training, the rover's distances for instance: above 1, what is rare
+    /// and ends an episode is met more often, and the policy keeps a margin (a plain kind of domain randomisation,
+    /// [Tobin et al. 2017](crate::bib::Tobin2017)). Evaluations take place in the environment as it is.
+    pub disturbance: f32,
     /// Environment steps between evaluations of the greedy policy; 0 for none.
     pub evaluate_every: u64,
     /// Episodes of such an evaluation.
@@ -61,6 +65,7 @@ impl Default for TrainingSettings {
             max_steps: 0,
             start: Start::Initial,
             embedded_start: EmbeddedStart::Initial,
+            disturbance: 1.0,
             evaluate_every: 2_000,
             evaluation_runs: 200,
             evaluation_failures: 4,

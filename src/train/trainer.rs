@@ -70,7 +70,15 @@ pub struct Trainer {
 
 impl Trainer {
     /// A fresh trainer; `seed` is for the environment's starts and transitions (the learner has its own streams of the same seed).
-    pub fn new(product: EpMdp, learner: ModularDdpg, reward: Arc<dyn Reward>, settings: TrainingSettings, seed: u64) -> Trainer {
+    /// [`TrainingSettings::disturbance`] is without effect where nothing random disturbs a step.
+    pub fn new(
+        mut product: EpMdp,
+        learner: ModularDdpg,
+        reward: Arc<dyn Reward>,
+        settings: TrainingSettings,
+        seed: u64,
+    ) -> Trainer {
+        product.scale_disturbance(settings.disturbance);
         let view = View::new(&product);
         let control = vec![0.0; product.environment().spec().action.len()];
         let mut starts = vec![];
