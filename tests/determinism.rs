@@ -66,6 +66,7 @@ const VARIANTS: &[(&str, &[&str])] = &[
     ("ball_pass_b1", &["learner.modules=per_embedded", "learner.counterfactual.samples=3", "training.embedded_start=random"]),
     ("ball_pass_b1", &["learner.modules=per_set", "learner.fourier_octaves=3", "learner.updated_module=random"]),
     ("cart_pole_c1", &["product.frontier=standard", "learner.updated_module=random", "learner.update_every=3"]),
+    ("melas", &["training.disturbance=1.5", "training.short_episodes={ share = 0.7, max_steps = 9 }"]),
 ];
 
 #[test]

@@ -122,6 +122,16 @@ fn values_outside_their_range_are_refused_at_their_line() {
 }
 
 #[test]
+fn a_disturbance_is_refused_where_there_is_none() {
+    let error = refusal(&b1().replace("[presets.fast.training]", "[presets.fast.training]\ndisturbance = 1.5"));
+    assert!(error.to_string().contains("nothing random disturbs a step of `ball_pass`"), "{error}");
+    let (line, _) = error.position().unwrap();
+    assert!(b1().lines().nth(line - 2).unwrap().starts_with("[presets.fast.training]"), "{error}");
+    let error = refusal(&b1().replace("[presets.fast.training]", "[presets.fast.training]\ndisturbance = -1.0"));
+    assert!(error.message().contains("`disturbance` is -1.0; allowed is 0 to 100"), "{error}");
+}
+
+#[test]
 fn formulas_and_automata_are_refused_at_their_place() {
     let error = refusal(&b1().replace("G F r1 & G F r2", "G F r1 & G F (r2"));
     let (line, column) = error.position().unwrap();
@@ -267,41 +277,6 @@ fn evaluations_start_in_places_of_their_own() {
         assert_eq!(starts(initial).0, if name.starts_with("ball_pass") { 1 } else { 20 }, "{name}");
         assert_eq!(starts(initial).1, starts(initial).1, "{name}: the same seed gives the same start");
     }
-}
-
-/// A wider disturbance is for training alone: evaluations take place in the environment as it is.
-#[test]
-fn the_disturbance_is_scaled_while_training_only() {
-    let melas = fs::read_to_string(folder().join("melas.toml")).unwrap();
-    let parse = |o: &str| o.parse::<Override>().unwrap();
-    let far = |change: &str| {
-        let setup = open("melas.toml", &melas, "fast", &[parse(change), parse("learner.exploration.warm_up=1000")]).unwrap();
-        let distance = |a: &[f32], b: &[f32]| (a[0] - b[0]).hypot(a[1] - b[1]);
-        let (mut trainer, mut rollout, mut learner) = (setup.trainer(1), setup.rollout(1), setup.learner(1));
-        let (mut training, mut evaluation, mut before) = (0.0_f32, 0.0_f32, vec![]);
-        for _ in 0..1_000 {
-            if trainer.step().episode_step > 1 {
-                training = training.max(distance(&before, trainer.product().environment().state()));
-            }
-            before = trainer.product().environment().state().to_vec();
-            let from = rollout.product().environment().state().to_vec();
-            rollout.step(&mut learner);
-            evaluation = evaluation.max(distance(&from, rollout.product().environment().state()));
-        }
-        (training, evaluation)
-    };
-    let (as_it_is, wider) = (far("training.disturbance=1.0"), far("training.disturbance=1.5"));
-    let reach = RoverMap::from_json(RoverMap::shipped("melas").unwrap(), None).unwrap().reach;
-    let about = |x: f32, expected: f32| x > 0.95 * expected && x < 1.001 * expected;
-    assert!(about(as_it_is.0, reach) && about(wider.0, 1.5 * reach), "{as_it_is:?} {wider:?}");
-    assert!(wider.1 < 1.001 * reach, "{wider:?}");
-
-    let error = refusal(&b1().replace("[presets.fast.training]", "[presets.fast.training]\ndisturbance = 1.5"));
-    assert!(error.to_string().contains("nothing random disturbs a step of `ball_pass`"), "{error}");
-    let (line, _) = error.position().unwrap();
-    assert!(b1().lines().nth(line - 2).unwrap().starts_with("[presets.fast.training]"), "{error}");
-    let error = refusal(&b1().replace("[presets.fast.training]", "[presets.fast.training]\ndisturbance = -1.0"));
-    assert!(error.message().contains("`disturbance` is -1.0; allowed is 0 to 100"), "{error}");
 }
 
 /// Both automata are the same but for the numbers and names of their states, as far as `letters` can tell.

@@ -19,7 +19,7 @@ const MAX_WIDTH: usize = 1024;
 /// The first number of `preset` that is outside its range.
 pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
     let (p, l, t) = (&preset.product, &preset.learner, &preset.training);
-    let x = &l.exploration;
+    let (x, short) = (&l.exploration, &t.short_episodes);
     let rate = |s: &Schedule| within(s, 0.0, 1.0);
     let hidden = !l.hidden.is_empty() && l.hidden.len() <= 8 && l.hidden.iter().all(|w| (1..=MAX_WIDTH).contains(w));
     let noise = match x.noise {
@@ -30,7 +30,7 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
     let smoothing = [l.target_smoothing.sigma, l.target_smoothing.clip];
     let shown = |value: &dyn std::fmt::Debug| format!("{value:?}");
     let open = |v: f64| v > 0.0 && v < 1.0;
-    let rows: [(bool, &'static [&'static str], String, &str); 28] = [
+    let rows: [(bool, &'static [&'static str], String, &str); 30] = [
         (open(p.accepting_discount), &["product", "accepting_discount"], shown(&p.accepting_discount), "between 0 and 1"),
         (p.discount > 0.0 && p.discount <= 1.0, &["product", "discount"], shown(&p.discount), "above 0 and at most 1"),
         (p.sink_reward.abs() <= 1e6, &["product", "sink_reward"], shown(&p.sink_reward), "within ±1000000"),
@@ -67,6 +67,13 @@ pub(super) fn out_of_range(preset: &Preset) -> Option<OutOfRange> {
         (t.steps >= 1, &["training", "steps"], shown(&t.steps), "at least 1"),
         (t.evaluation_runs >= 1 || t.evaluate_every == 0, &["training", "evaluation_runs"], "0".into(), "at least 1"),
         (t.evaluation_runs <= 100_000, &["training", "evaluation_runs"], shown(&t.evaluation_runs), "at most 100000"),
+        ((0.0..=1.0).contains(&short.share), &["training", "short_episodes", "share"], shown(&short.share), "0 to 1"),
+        (
+            (1..=10_000_000).contains(&short.max_steps),
+            &["training", "short_episodes", "max_steps"],
+            shown(&short.max_steps),
+            "1 to 10000000",
+        ),
         ((0.0..=100.0).contains(&t.disturbance), &["training", "disturbance"], shown(&t.disturbance), "0 to 100"),
         (t.max_steps <= 10_000_000, &["training", "max_steps"], shown(&t.max_steps), "at most 10000000"),
     ];

@@ -95,6 +95,8 @@ struct RunMemory {
     begun: u64,
     episode_step: u32,
     running: bool,
+    #[serde(default)]
+    short: bool,
     first_perfect_step: Option<u64>,
     last_evaluated: u64,
     embedded: String,
@@ -127,6 +129,7 @@ impl Run {
             begun: trainer.begun,
             episode_step: trainer.episode_step,
             running: trainer.running,
+            short: trainer.short,
             first_perfect_step: self.first_perfect_step,
             last_evaluated: self.last_evaluated,
             embedded: embedded_to_text(at),
@@ -217,7 +220,7 @@ impl Run {
         trainer.rng = rng(&memory.environment)?;
         self.seeds = rng(&memory.evaluations)?;
         (trainer.step, trainer.begun) = (memory.step, memory.begun);
-        (trainer.episode_step, trainer.running) = (memory.episode_step, memory.running);
+        (trainer.episode_step, trainer.running, trainer.short) = (memory.episode_step, memory.running, memory.short);
         (self.first_perfect_step, self.last_evaluated) = (memory.first_perfect_step, memory.last_evaluated);
         Ok(())
     }

@@ -94,7 +94,7 @@ impl Metrics {
         }
     }
 
-    /// Takes in a tick; the summary of the episode that it ended, if it did.
+    /// Takes in a tick; the summary of the episode that it ended, if it did and is not one of the short ones.
     pub fn fold(&mut self, tick: &Tick) -> Option<EpisodeSummary> {
         self.step = tick.step;
         if let Some(start) = tick.start {
@@ -111,7 +111,7 @@ impl Metrics {
             self.actor[update.module].add(update.losses.actor);
             self.updates[update.module] += 1;
         }
-        tick.end?;
+        tick.end.filter(|_| !tick.short)?;
         let total = f64::from(self.episode.total_reward);
         let summary = EpisodeSummary {
             episode: tick.episode,

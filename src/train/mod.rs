@@ -12,5 +12,5 @@ mod trainer;
 pub use checkpoint::{Checkpoint, CheckpointError, Extent, FORMAT, Origin};
 pub use metrics::{EpisodeSummary, Metrics};
 pub use run::{Best, PolicyTensors, Progress, Run};
-pub use settings::{EmbeddedStart, Stop, TrainingSettings};
+pub use settings::{EmbeddedStart, ShortEpisodes, Stop, TrainingSettings};
 pub use trainer::{End, Tick, Trainer};

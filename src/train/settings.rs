@@ -27,6 +27,24 @@ pub enum Stop {
     Perfect,
 }
 
+/// Short episodes: more starts for the same steps, so that what only few starts meet, such as a nook between obstacles, is practised
+/// often (exploring starts, [Sutton and Barto 2018](crate::bib::SuttonBarto2018), section 5.3). Off by default.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
+pub struct ShortEpisodes {
+    /// The share of episodes, from 0 to 1, that are short.
+    pub share: f32,
+    /// Their environment steps, in place of [`TrainingSettings::max_steps`].
+    pub max_steps: u32,
+}
+
+impl Default for ShortEpisodes {
+    fn default() -> ShortEpisodes {
+        ShortEpisodes { share: 0.0, max_steps: 10 }
+    }
+}
+
 /// The numbers of training. The defaults are those of no task in particular: a task file gives its own.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
@@ -39,6 +57,8 @@ pub struct TrainingSettings {
     /// Environment steps in an episode; 0 for the evaluation's. Reaching them truncates, which is not the end of the task: values
     /// are bootstrapped through it.
     pub max_steps: u32,
+    /// Short episodes among the others.
+    pub short_episodes: ShortEpisodes,
     /// Where the environment starts.
     pub start: Start,
     /// Where the automaton starts.
@@ -63,6 +83,7 @@ impl Default for TrainingSettings {
             steps: 300_000,
             episodes: 0,
             max_steps: 0,
+            short_episodes: ShortEpisodes::default(),
             start: Start::Initial,
             embedded_start: EmbeddedStart::Initial,
             disturbance: 1.0,

@@ -34,6 +34,8 @@ pub struct Tick {
     pub episode: u64,
     /// Environment steps of this episode so far, this one included.
     pub episode_step: u32,
+    /// Whether the episode is one of the [`ShortEpisodes`](super::settings::ShortEpisodes); curves leave them out.
+    pub short: bool,
     /// How the episode began, on its first tick.
     pub start: Option<ProductStart>,
     /// The transition.
@@ -61,6 +63,8 @@ pub struct Trainer {
     pub(super) episode_step: u32,
     /// An episode is going on.
     pub(super) running: bool,
+    /// The episode is one of the short ones.
+    pub(super) short: bool,
     view: View,
     next: View,
     control: Vec<f32>,
@@ -93,6 +97,7 @@ impl Trainer {
             begun: 0,
             episode_step: 0,
             running: false,
+            short: false,
             next: view.clone(),
             view,
             control,
@@ -128,7 +133,7 @@ impl Trainer {
         });
         let end = if product.ends() {
             Some(End::Terminated)
-        } else if self.episode_step >= self.settings.max_steps {
+        } else if self.episode_step >= self.time_limit() {
             Some(End::Truncated)
         } else {
             None
@@ -142,6 +147,7 @@ impl Trainer {
             step: self.step,
             episode: self.episode(),
             episode_step: self.episode_step,
+            short: self.short,
             start,
             product,
             reward: self.reward.parts(&product),
@@ -161,6 +167,8 @@ impl Trainer {
         self.begun += 1;
         self.running = true;
         self.episode_step = 0;
+        let share = self.settings.short_episodes.share;
+        self.short = share > 0.0 && self.rng.chance(share);
         let mut start = self.product.reset(self.settings.start, &mut self.rng);
         for _ in 0..MAX_DRAWS {
             if let Some(at) = self.random_embedded() {
@@ -175,6 +183,11 @@ impl Trainer {
             start = self.product.reset(self.settings.start, &mut self.rng);
         }
         start
+    }
+
+    /// Environment steps after which the present episode is truncated.
+    fn time_limit(&self) -> u32 {
+        if self.short { self.settings.short_episodes.max_steps } else { self.settings.max_steps }
     }
 
     /// A random embedded state after reading L(s_0), if episodes start in such; `None` where that is a sink.
