@@ -22,6 +22,11 @@ for (const size of /** @type {const} */ (['wide', 'phone'])) {
       assert.deepEqual(await inaccessible(page), []);
       await page.click('#help-open');
       assert.deepEqual(await inaccessible(page, '#help'), []);
+      await page.keyboard.press('Escape');
+      // The pointer rests on the button that it has pressed.
+      await page.click('#train');
+      await page.waitForSelector('#train[aria-pressed=true]:hover', { state: 'attached' });
+      assert.deepEqual(await inaccessible(page, '#train'), []);
       assert.deepEqual(problems, []);
       await context.close();
     });
