@@ -188,7 +188,7 @@ impl Session {
             (activity.critic, activity.actor) = (update.losses.critic, update.losses.actor);
             self.losses.add(update.module, update.losses.critic);
         }
-        if let Some(end) = tick.end.filter(|_| !tick.short) {
+        if let Some(end) = tick.counted_end() {
             let outcome = EpisodeOutcome {
                 steps: tick.episode_step,
                 total: self.total,

@@ -111,7 +111,7 @@ impl Metrics {
             self.actor[update.module].add(update.losses.actor);
             self.updates[update.module] += 1;
         }
-        tick.end.filter(|_| !tick.short)?;
+        tick.counted_end()?;
         let total = f64::from(self.episode.total_reward);
         let summary = EpisodeSummary {
             episode: tick.episode,

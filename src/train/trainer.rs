@@ -34,7 +34,7 @@ pub struct Tick {
     pub episode: u64,
     /// Environment steps of this episode so far, this one included.
     pub episode_step: u32,
-    /// Whether the episode is one of the [`ShortEpisodes`](super::settings::ShortEpisodes); curves leave them out.
+    /// Whether the episode is one of the [`ShortEpisodes`](super::settings::ShortEpisodes).
     pub short: bool,
     /// How the episode began, on its first tick.
     pub start: Option<ProductStart>,
@@ -48,6 +48,13 @@ pub struct Tick {
     pub update: Option<Update>,
     /// Whether and why the episode ended here.
     pub end: Option<End>,
+}
+
+impl Tick {
+    /// Why the episode ended here, if it did and counts: sums over a short one say nothing about the task, so curves leave it out.
+    pub fn counted_end(&self) -> Option<End> {
+        self.end.filter(|_| !self.short)
+    }
 }
 
 /// Product, learner and everything between them.

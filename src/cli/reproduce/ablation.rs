@@ -26,7 +26,7 @@ pub struct Ablation {
 }
 
 /// Options that belong together: a word for file names, and their keys.
-const TOGETHER: [(&str, &[&str]); 7] = [
+const TOGETHER: [(&str, &[&str]); 8] = [
     ("discounts", &["product.accepting_discount", "product.discount"]),
     ("rates", &["learner.actor_rate", "learner.critic_rate", "learner.tau"]),
     ("holding", &["learner.exploration.hold_probability", "learner.exploration.hold_steps"]),
@@ -34,6 +34,7 @@ const TOGETHER: [(&str, &[&str]); 7] = [
     ("smoothing", &["learner.target_smoothing.sigma", "learner.target_smoothing.clip"]),
     ("updates", &["learner.updates_per_step", "learner.update_every"]),
     ("warm_up", &["learner.exploration.warm_up"]),
+    ("short_episodes", &["training.short_episodes.share", "training.short_episodes.max_steps"]),
 ];
 
 /// What belongs to the experiment and not to the recipe.
