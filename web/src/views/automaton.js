@@ -143,7 +143,11 @@ export class Automaton {
     this.graph = null;
     this.q = -1;
     this.edge = -2;
+    /** Counts what was asked to be shown, and previews: only the newest of each is put into its place. */
     this.turn = 0;
+    this.previews = 0;
+    /** Ends when the automaton that moves stands, or could not be drawn. */
+    this.standing = Promise.resolve();
     /** What stands in place of the preview when that ends. @type {Element[] | null} */
     this.kept = null;
   }
@@ -153,13 +157,19 @@ export class Automaton {
    * @param {AutomatonGraph} graph
    * @param {string | null} [task]  the task whose automaton it may be
    */
-  async show(graph, task = null) {
+  show(graph, task = null) {
     const turn = ++this.turn;
     this.graph = graph;
     this.q = -1;
     this.edge = -2;
     this.kept = null;
-    const svg = await this.drawn(graph, task);
+    const shown = this.drawn(graph, task).then((svg) => this.put(turn, svg));
+    this.standing = shown.catch(() => {});
+    return shown;
+  }
+
+  /** Puts the automaton that moves into its place, unless another has been asked for since. @param {number} turn @param {SVGSVGElement} svg */
+  put(turn, svg) {
     if (turn !== this.turn) return;
     this.root.classList.remove('preview');
     this.root.replaceChildren(svg);
@@ -169,9 +179,11 @@ export class Automaton {
 
   /** Shows another automaton in place of the one that moves. @param {AutomatonGraph} graph */
   async preview(graph) {
-    const turn = ++this.turn;
+    const [turn, preview] = [this.turn, ++this.previews];
     const svg = await this.drawn(graph, null);
-    if (turn !== this.turn) return;
+    // What comes back after the preview must stand first.
+    await this.standing;
+    if (turn !== this.turn || preview !== this.previews) return;
     this.kept ??= [...this.root.children];
     this.root.classList.add('preview');
     this.root.replaceChildren(svg);
@@ -179,8 +191,8 @@ export class Automaton {
 
   /** Shows the automaton that moves again; whether another was shown. */
   endPreview() {
+    this.previews++;
     if (!this.kept) return false;
-    this.turn++;
     this.root.classList.remove('preview');
     this.root.replaceChildren(...this.kept);
     this.kept = null;

@@ -88,7 +88,8 @@ test('a hostile link is told of, and the page stands', async () => {
   for (const [link, wanted] of HOSTILE_LINKS) {
     await page.goto('about:blank');
     await page.goto(`${site.url}${link}`);
-    await page.waitForSelector('#automaton svg .node.current');
+    // A formula that is refused but can be read is previewed.
+    await page.waitForSelector('#automaton svg .node.current, #automaton.preview svg .node');
     const seen = () => page.evaluate(() => [...document.querySelectorAll('#notices, .said')].map((n) => n.textContent).join(' '));
     for (const end = Date.now() + 20_000; !wanted.test(await seen()) && Date.now() < end;) await new Promise((resolve) => setTimeout(resolve, 50));
     assert.match(await seen(), wanted, link.slice(0, 60));

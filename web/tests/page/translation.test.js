@@ -57,6 +57,24 @@ test('what nothing or everything satisfies is said before training, and what the
   await context.close();
 });
 
+test('a preview that is ready before the automaton of the open task waits for it', async () => {
+  // No service worker: it would answer in place of the route.
+  const context = await site.browser.newContext({ viewport: SIZES.wide, serviceWorkers: 'block' });
+  const page = await context.newPage();
+  let release = () => {};
+  const held = new Promise((resolve) => (release = () => resolve(undefined)));
+  await page.route('**/drawings/*', (route) => held.then(() => route.continue()));
+  // The formula is refused, so the task's own stands, and what the field holds is previewed.
+  await page.goto(`${site.url}#task=cart_pole_c1&formula=G+F+nowhere`);
+  await page.waitForFunction(() => /no proposition/.test(document.getElementById('formula-facts')?.textContent ?? ''));
+  release();
+  await page.waitForSelector('#automaton.preview svg .node');
+  await page.focus('#formula');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('#automaton:not(.preview) svg .node.current');
+  await context.close();
+});
+
 test('propositions are completed from a list with their meaning, by keys, and put in by a click', async () => {
   const { page, context, problems } = await visit(site, { hash: '#task=cart_pole_c1' });
   await page.fill('#formula', '');
