@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
-import type { ComparisonVerdict, Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry, ValueMap, ValueMapRequest, Word, WordReading } from '../src/protocol.js';
+import type { BestPolicy, ComparisonVerdict, Curves, Description, Episode, EvaluationProgress, FormulaVerdict, HoaVerdict, MapVerdict, ModuleStatistics, TaskEntry, ValueMap, ValueMapRequest, Word, WordReading } from '../src/protocol.js';
 export interface TranslationOptions { state_based?: boolean; deterministic?: boolean; classify?: boolean; }
 export type TranslationVerdict = { ok: true; facts: TranslationFacts } | { ok: false; error: TranslationRefusal };
 /** Places are in UTF-16 code units of the text that `field` names. */
@@ -49,6 +49,8 @@ extern "C" {
     pub type JsStatistics;
     #[wasm_bindgen(typescript_type = "EvaluationProgress | undefined")]
     pub type JsProgress;
+    #[wasm_bindgen(typescript_type = "BestPolicy | undefined")]
+    pub type JsBestPolicy;
     #[wasm_bindgen(typescript_type = "TaskEntry[]")]
     pub type JsTasks;
     #[wasm_bindgen(typescript_type = "FormulaVerdict")]
@@ -282,7 +284,7 @@ impl Session {
         Translator(self.0.translator())
     }
 
-    /// Trains for at most `steps` moves; how many were made.
+    /// Trains for at most `steps` moves, and no further than the recipe's end; how many were made.
     pub fn advance(&mut self, steps: u32) -> u32 {
         self.0.advance(steps)
     }
@@ -291,6 +293,12 @@ impl Session {
     #[wasm_bindgen(getter)]
     pub fn finished(&self) -> bool {
         self.0.finished()
+    }
+
+    /// What the best policy so far came to.
+    #[wasm_bindgen(getter)]
+    pub fn best(&self) -> JsBestPolicy {
+        self.0.best().map_or(JsValue::UNDEFINED.unchecked_into(), |best| plain(&best))
     }
 
     /// Environment steps at the first periodic evaluation without a failure.

@@ -276,3 +276,33 @@ fn losses_are_kept_by_module() {
     assert!(curves.modules.iter().all(|m| m.len() == curves.episode.len()));
     assert!(curves.modules.iter().flatten().flatten().any(|loss| *loss > 0.0), "some module was updated");
 }
+
+#[test]
+fn training_stands_still_where_its_recipe_ends() {
+    let with = |task: &str, formula: Option<&str>, overrides: &[(&str, &str)]| {
+        let small = [("learner.hidden", "[8, 8]"), ("learner.exploration.warm_up", "100"), ("training.evaluation_runs", "3")];
+        let overrides = small.iter().chain(overrides).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        Session::open(&OpenRequest { formula: formula.map(str::to_owned), overrides, ..request(task) })
+            .unwrap_or_else(|e| panic!("{e}"))
+    };
+    // What always holds is satisfied by every policy, so the first evaluation finds no failure.
+    let mut learned = with("melas", Some("G F (m1 | !m1)"), &[("training.evaluate_every", "150")]);
+    assert_eq!((learned.best(), learned.finished()), (None, false));
+    let mut made = 0;
+    while !learned.finished() {
+        made += learned.advance(10_000);
+    }
+    assert_eq!((made, learned.steps(), learned.first_perfect_step()), (150, 150, Some(150)));
+    let best = learned.best().expect("it was evaluated");
+    assert_eq!((best.step, best.runs, best.successes), (150, 3, 3));
+    let layout = learned.describe().layout;
+    let states = |session: &mut Session| -> Vec<f32> {
+        session.rollout(0).data.chunks(layout.length).flat_map(|frame| field(&layout, frame, "state").to_vec()).collect()
+    };
+    let mut kept = Session::restore(&learned.save_policy()).unwrap_or_else(|e| panic!("{e}"));
+    assert!(states(&mut kept) == states(&mut learned), "the best policy is the present one");
+    assert_eq!(learned.advance(40), 40, "whoever wants more gets it");
+    let mut spent = with("ball_pass_b1", None, &[("training.steps", "130"), ("training.evaluate_every", "0")]);
+    assert_eq!((spent.advance(10_000), spent.finished()), (130, true));
+    assert_eq!((spent.advance(20), spent.best()), (20, None));
+}

@@ -9,12 +9,12 @@ use super::frame::{Counters, FrameWriter, Layout, Source};
 use super::open::{OpenRequest, Opened};
 use super::refusal::{Refusal, Subject};
 use super::translation::Translator;
-use super::trial::{Trial, TrialProgress};
+use super::trial::{BestPolicy, Trial, TrialProgress};
 use super::value_map::{self, ValueMap, ValueMapRequest};
 use super::word::{self, Word, WordReading};
 use super::{FormulaFacts, builtin};
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
-use crate::eval::Rollout;
+use crate::eval::{Evaluation, Rollout};
 use crate::ltl::Formula;
 use crate::rng::{Purpose, Rng};
 use crate::task::Setup;
@@ -144,9 +144,10 @@ impl Session {
     }
 
     /// Trains for at most `steps` moves and the updates after them; the number of moves made. While a periodic evaluation of the
-    /// recipe is due, its moves are made instead, several for one.
+    /// recipe is due, its moves are made instead, several for one. Ends early where the recipe comes to its end: the policy is then
+    /// the one that its last evaluation has seen. The next call goes on beyond it.
     pub fn advance(&mut self, steps: u32) -> u32 {
-        let mut made = 0;
+        let (beyond, mut made) = (self.finished(), 0);
         for _ in 0..steps {
             if self.check.is_some() {
                 self.advance_check();
@@ -159,6 +160,9 @@ impl Session {
                     let trial = Trial::new(self.setup.rollout(seed), settings.evaluation_runs, seed);
                     trial.giving_up_after(settings.evaluation_failures)
                 });
+            }
+            if !beyond && self.finished() {
+                break;
             }
         }
         made
@@ -208,6 +212,14 @@ impl Session {
     /// Environment steps at the first periodic evaluation without a failure.
     pub fn first_perfect_step(&self) -> Option<u64> {
         self.run.first_perfect_step()
+    }
+
+    /// What the best policy so far came to; `None` before the first periodic evaluation.
+    pub fn best(&self) -> Option<BestPolicy> {
+        self.run.best().map(|best| {
+            let Evaluation { runs, successes, rounds_mean, .. } = best.evaluation;
+            BestPolicy { step: best.step, runs, successes, rounds_mean }
+        })
     }
 
     /// Whether the recipe's budget is spent, or its goal reached. Training may go on nevertheless.

@@ -45,6 +45,6 @@ pub use open::OpenRequest;
 pub use own_map::{MapFacts, MapLabel, check_map, default_map, map_of_picture, picture};
 pub use refusal::{Place, Refusal, Subject};
 pub use translation::{ClassFacts, Doubt, TranslationFacts, TranslationOptions, Translator, Warning, translate_formula};
-pub use trial::{Trial, TrialProgress};
+pub use trial::{BestPolicy, Trial, TrialProgress};
 pub use value_map::{ValueAxis, ValueMap, ValueMapRequest};
 pub use word::{Word, WordReading, judge_word};

@@ -39,6 +39,19 @@ pub struct TrialProgress {
     pub seed: u64,
 }
 
+/// The best policy that the recipe's evaluations have seen: which one, and what they saw.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct BestPolicy {
+    /// Environment steps of training at the time.
+    pub step: u64,
+    /// Episodes that were played.
+    pub runs: u32,
+    /// Episodes that satisfied the task.
+    pub successes: u32,
+    /// Mean of completed rounds.
+    pub rounds_mean: f64,
+}
+
 impl Trial {
     /// An evaluation of `wanted` episodes, with the starts that [`evaluate`](crate::eval::evaluate) draws from `seed`.
     pub fn new(rollout: Rollout, wanted: u32, seed: u64) -> Trial {

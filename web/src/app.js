@@ -36,6 +36,9 @@ const $ = {
 const fetchPolicy = (task) => fetch(`assets/policies/${encodeURIComponent(task)}.safetensors`)
   .then(async (answer) => (answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null)).catch(() => null);
 
+/** What the best policy of a training came to, as a sentence of a notice. @param {import('./protocol.js').BestPolicy | null} best */
+const inWords = (best) => (best ? `Its best policy, after ${count(best.step)} steps, satisfied the task in ${count(best.successes)} of ${count(best.runs)} runs: watch it under Best. ` : '');
+
 export class App {
   /** @param {State} state @param {import('./maps/shelf.js').Shelf} shelf  the maps that the state has keys of */
   constructor(state, shelf) {
@@ -93,6 +96,7 @@ export class App {
         if (reply.generation !== this.generation) return;
         this.controls.rate(reply.rate);
         this.points = reply.curves;
+        this.heardOfBest(reply.best);
         this.curves?.update(reply.curves, this.description?.modules);
         this.modules.update(reply.modules);
         this.signals.tell('telemetry', reply);
@@ -102,12 +106,13 @@ export class App {
         this.evaluation.update(progress);
         this.signals.tell('evaluation', progress);
       },
-      finished: ({ generation, first_perfect_step }) => {
+      finished: ({ generation, steps, first_perfect_step, best }) => {
         if (generation !== this.generation) return;
         this.setTraining(false);
-        notice(first_perfect_step === null
-          ? 'Training has used up the budget of its recipe. Press Train to go on.'
-          : `Learned: every run of the evaluation after ${count(first_perfect_step)} steps satisfies the task. Press Train to go on.`);
+        this.heardOfBest(best);
+        notice(first_perfect_step === steps
+          ? `Learned: every run of the evaluation after ${count(steps)} steps satisfies the task. Press Train to go on.`
+          : `Training has used up the budget of its recipe. ${inWords(best)}Press Train to go on.`);
         this.signals.tell('finished', first_perfect_step);
       },
       halted: ({ generation, message }) => {
@@ -310,6 +315,14 @@ export class App {
     if (this.description && this.state.set[key] !== value) this.settings.show(this.description.settings, this.state.set);
   }
 
+  /** @param {import('./protocol.js').BestPolicy | null} best  the best policy of the open session */
+  heardOfBest(best) {
+    const { theatre } = this;
+    const other = best?.step !== theatre.best?.step;
+    theatre.best = best;
+    if (other) this.showState();
+  }
+
   /** A worker that broke is replaced, and the run goes on from its last checkpoint. @param {string} message */
   async mend(message) {
     const now = performance.now();
@@ -376,7 +389,7 @@ export class App {
 
   showState() {
     this.theatre.speed = this.state.speed;
-    this.controls.show(this.state, this.theatre.trained);
+    this.controls.show(this.state, { trained: this.theatre.trained, best: this.theatre.best !== null });
     this.signals.tell('state', this.state);
   }
 

@@ -17,6 +17,7 @@ function source(app) {
   if (mode === 'drive') return 'Driven by hand';
   if (mode === 'training') return 'In training';
   const step = app.theatre.live?.counter('step') ?? 0;
+  if (player.of === 'best') return `Best policy after ${count(player.after)} steps`;
   return player.of === 'shipped' || (mode === 'trained' && trained) ? 'Trained policy' : `Policy after ${count(step)} steps`;
 }
 

@@ -24,6 +24,7 @@ function table(app) {
     2: () => app.watch('policy'),
     3: () => app.watch('training'),
     4: () => app.watch('drive'),
+    b: () => app.watch('best'),
     k: press('keep'),
     x: press('next-episode'),
     v: () => app.change({ layers: toggled(app.state.layers, 'value') }),

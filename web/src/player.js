@@ -39,6 +39,8 @@ export class Player {
     this.episode = null;
     /** Whose episode it is, or one that was kept. @type {import('./protocol.js').Whose | 'kept'} */
     this.of = 'present';
+    /** Of the best policy: after how many steps of training. */
+    this.after = 0;
     /** Position in rows; the whole part is the row shown. */
     this.position = 0;
     this.playing = true;

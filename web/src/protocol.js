@@ -114,6 +114,11 @@
  */
 
 /**
+ * The best policy that the evaluations of a training have seen: after how many steps, and how many of the episodes satisfied the task.
+ * @typedef {{ step: number, runs: number, successes: number, rounds_mean: number }} BestPolicy
+ */
+
+/**
  * How an evaluation stands.
  * @typedef {object} EvaluationProgress
  * @property {number} wanted
@@ -126,7 +131,7 @@
  * @property {number} seed
  */
 
-/** Whose policy: that of the open session, or the trained one that came with the page. @typedef {'present' | 'shipped'} Whose */
+/** Whose policy: that of the open session as it is now, the best that its evaluations have seen, or the trained one that came with the page. @typedef {'present' | 'best' | 'shipped'} Whose */
 
 /**
  * An infinite word: its letters, each the propositions that hold; the letter that follows the last one; ε-jumps, each before which
@@ -176,9 +181,9 @@
  *   | { kind: 'done', id: number, value: any }
  *   | { kind: 'failed', id: number, error: Located }
  *   | { kind: 'frame', generation: number, data: Float32Array }
- *   | { kind: 'telemetry', generation: number, rate: number, steps: number, memory: number, curves: Curves, modules: ModuleStatistics[] }
+ *   | { kind: 'telemetry', generation: number, rate: number, steps: number, memory: number, curves: Curves, modules: ModuleStatistics[], best: BestPolicy | null }
  *   | { kind: 'evaluation', generation: number, progress: EvaluationProgress }
- *   | { kind: 'finished', generation: number, first_perfect_step: number | null }
+ *   | { kind: 'finished', generation: number, steps: number, first_perfect_step: number | null, best: BestPolicy | null }
  *   | { kind: 'halted', generation: number, message: string }
  *   | { kind: 'broken', message: string }} Reply
  */

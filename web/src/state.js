@@ -12,7 +12,7 @@ import { MAX_IN_LINK } from './maps/shelf.js';
  * @property {string} preset    empty: the task's first
  * @property {number} seed
  * @property {Record<string, string>} set   overrides of the task file, dotted key → TOML value
- * @property {'trained' | 'policy' | 'training' | 'drive'} watch   what the stage shows
+ * @property {'trained' | 'policy' | 'best' | 'training' | 'drive'} watch   what the stage shows
  * @property {number} speed     playback, multiples of the environment's own time
  * @property {number} pace      training, steps a second; 0: as fast as possible
  * @property {string[]} layers  what is drawn over the ground
@@ -126,7 +126,7 @@ export const PROPERTIES = {
   preset: text('', 64, /^[a-z0-9_-]*$/),
   seed: whole(1, Number.MAX_SAFE_INTEGER),
   set: settings,
-  watch: /** @type {Property<State['watch']>} */ (choice('trained', ['trained', 'policy', 'training', 'drive'])),
+  watch: /** @type {Property<State['watch']>} */ (choice('trained', ['trained', 'policy', 'best', 'training', 'drive'])),
   speed: choice(2, SPEEDS),
   pace: choice(0, PACES),
   layers: list(['labels', 'unsafe', 'paths'], LAYERS),

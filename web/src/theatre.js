@@ -2,7 +2,7 @@
 // The theatre: what the stage and the views linked to it show at each moment, be it an episode that is played, training as it comes,
 // or a run that the user drives.
 
-import { byId, element, setText } from './dom.js';
+import { byId, count, element, setText } from './dom.js';
 import { Driving } from './driving.js';
 import { Player, Recorder, happenings } from './player.js';
 import { Frame } from './protocol.js';
@@ -61,6 +61,8 @@ export class Theatre {
     this.layers = new Set();
     /** Whether the trained policy of the open task is loaded. */
     this.trained = false;
+    /** The best policy so far of the open session. @type {import('./protocol.js').BestPolicy | null} */
+    this.best = null;
     /** The newest frame of training. @type {Frame | null} */
     this.live = null;
     this.liveIsNew = false;
@@ -107,6 +109,7 @@ export class Theatre {
     this.live = null;
     this.reader = new Frame(description.layout);
     this.trained = false;
+    this.best = null;
     this.player = new Player(description.environment.dt);
     this.player.playing = playing;
     this.recorder = new Recorder();
@@ -170,6 +173,7 @@ export class Theatre {
   /** Whose episodes the stage plays; `null` where it shows training or driving. @returns {import('./protocol.js').Whose | null} */
   get playing() {
     if (this.mode === 'trained') return this.trained ? 'shipped' : 'present';
+    if (this.mode === 'best') return this.best ? 'best' : 'present';
     return this.mode === 'policy' ? 'present' : null;
   }
 
@@ -222,6 +226,7 @@ export class Theatre {
     this.asking = false;
     if (of !== this.playing) return this.nextEpisode();
     this.begin(answer.episode, of);
+    this.player.after = answer.after ?? 0;
   }
 
   /** Plays an episode from its start. @param {Episode} episode @param {import('./player.js').Player['of']} of */
@@ -303,7 +308,8 @@ export class Theatre {
     this.timeline.update(player.row);
     this.transport.at(player.row, player.last);
     const { of } = player;
-    this.say(of === 'kept' ? 'A kept episode' : of === 'shipped' ? 'A trained policy' : reader.counter('step') === 0 ? 'The policy before any training' : '');
+    this.say(of === 'kept' ? 'A kept episode' : of === 'shipped' ? 'A trained policy'
+      : of === 'best' ? `The best policy so far, after ${count(player.after)} steps` : reader.counter('step') === 0 ? 'The policy before any training' : '');
   }
 
   /** An episode was played to its end, and stood there for a moment. */

@@ -106,7 +106,7 @@ export class Values {
       const [low, high] = extent(map.values);
       this.shown = JSON.stringify(at);
       theatre.stage.set({ value: { map, picture: picture(map) } });
-      setText(this.said, `V from ${brief(low)} to ${brief(high)}, ${map.module === null ? 'the best of the modules of T' : `module ${description.modules[map.module]}`}${of === 'shipped' ? ' of the trained policy' : ''}`);
+      setText(this.said, `V from ${brief(low)} to ${brief(high)}, ${map.module === null ? 'the best of the modules of T' : `module ${description.modules[map.module]}`}${of === 'shipped' ? ' of the trained policy' : of === 'best' ? ' of the best policy' : ''}`);
     } else {
       theatre.stage.set({ value: null });
       setText(this.said, 'Nothing is chosen in this state: no module is in charge of it.');

@@ -24,6 +24,8 @@ let memory = null;
 let session = null;
 /** A trained policy that came with the page, for its episodes only. @type {Session | null} */
 let shipped = null;
+/** The best policy of the open session, for its episodes only, and of which step it is. @type {{ step: number, of: Session } | null} */
+let best = null;
 /** @type {Frame | null} */
 let frame = null;
 /** What the open environment labels its states with. @type {string[]} */
@@ -76,7 +78,7 @@ function sendTelemetry() {
   const open = present();
   const steps = /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step');
   const bytes = memory?.buffer.byteLength ?? 0;
-  tell({ kind: 'telemetry', generation: opened, rate, steps, memory: bytes, curves: open.curves(), modules: open.statistics() });
+  tell({ kind: 'telemetry', generation: opened, rate, steps, memory: bytes, curves: open.curves(), modules: open.statistics(), best: open.best ?? null });
 }
 
 /**
@@ -112,11 +114,14 @@ async function train(mine, pace, until = Infinity) {
       // Several calls a slice, each a quarter of it, so that a slow step is noticed in time.
       do {
         const before = performance.now();
-        const made = open.advance(Math.min(chunk, left));
+        const asked = Math.min(chunk, left);
+        const made = open.advance(asked);
         counted += made;
         left -= made;
         const spent = performance.now() - before;
         chunk = Math.max(1, Math.min(4096, Math.round(spent > 0 ? (chunk * SLICE) / 4 / spent : chunk * 2)));
+        // What the recipe ends with is what stands there.
+        if (made < asked && open.finished && !told) break;
       } while (left > 0 && performance.now() - start < SLICE - 2);
     }
     const now = performance.now();
@@ -143,7 +148,7 @@ async function train(mine, pace, until = Infinity) {
       told = true;
       stop();
       sendTelemetry();
-      tell({ kind: 'finished', generation: opened, first_perfect_step: open.first_perfect_step ?? null });
+      tell({ kind: 'finished', generation: opened, steps: counters.at(open.frame(), 0).counter('step'), first_perfect_step: open.first_perfect_step ?? null, best: open.best ?? null });
     }
     await (pace > 0 ? sleep(Math.max(SLICE, 1000 / pace / 2)) : breathe());
   }
@@ -152,8 +157,20 @@ async function train(mine, pace, until = Infinity) {
 /** The session whose policy is meant. @param {import('./protocol.js').Whose} of */
 function whose(of) {
   if (of === 'present') return present();
+  if (of === 'best') return bestOf(present());
   if (!shipped) throw new Error('no trained policy is loaded');
   return shipped;
+}
+
+/** The best policy of a session, or the session itself where none has been evaluated yet. @param {Session} open */
+function bestOf(open) {
+  const step = open.best?.step;
+  if (step === undefined) return open;
+  if (best?.step === step) return best.of;
+  best?.of.free();
+  best = null;
+  best = { step, of: Session.restore(open.save_policy()) };
+  return best.of;
 }
 
 /**
@@ -186,6 +203,8 @@ function replace(next) {
   session?.free();
   shipped?.free();
   shipped = null;
+  best?.of.free();
+  best = null;
   session = next;
   const description = next.describe();
   propositions = description.environment.propositions.map((p) => p.name);
@@ -263,7 +282,8 @@ function obey(command) {
     case 'rollout': {
       const player = whose(command.of);
       const index = BigInt(command.index);
-      return { generation: opened, episode: command.from ? player.rollout_from(index, Float32Array.from(command.from)) : player.rollout(index) };
+      const after = command.of === 'best' ? best?.step : undefined;
+      return { generation: opened, after, episode: command.from ? player.rollout_from(index, Float32Array.from(command.from)) : player.rollout(index) };
     }
     case 'value_map':
       return { generation: opened, map: whose(command.of).value_map(command.request) };

@@ -38,6 +38,7 @@ import { PACES, SPEEDS } from '../state.js';
 const WATCHES = Object.freeze([
   { value: 'trained', label: 'Trained', title: 'Greedy episodes of the trained policy that comes with the page' },
   { value: 'policy', label: 'Policy', title: 'Greedy episodes of the policy as it is now' },
+  { value: 'best', label: 'Best', title: 'Greedy episodes of the best policy that the evaluations of this training have seen' },
   { value: 'training', label: 'Training', title: 'The steps of training as they happen, exploration and all' },
   { value: 'drive', label: 'Drive', title: 'You choose the actions, the automaton follows' },
 ]);
@@ -78,18 +79,19 @@ export class Controls {
   /**
    * Shows the state's choices.
    * @param {State} state
-   * @param {boolean} trained  whether there is a trained policy to watch
+   * @param {{ trained: boolean, best: boolean }} there  whether there is a trained policy to watch, and a best one
    */
-  show(state, trained) {
+  show(state, there) {
     const { places } = this;
     places.seed.value = String(state.seed);
     places.speed.value = String(state.speed);
     places.pace.value = String(state.pace);
-    const shown = state.watch === 'trained' && !trained ? 'policy' : state.watch;
+    const missing = (/** @type {string} */ value) => (value === 'trained' && !there.trained) || (value === 'best' && !there.best);
+    const shown = missing(state.watch) ? 'policy' : state.watch;
     for (const input of places.watch.querySelectorAll('input')) {
       input.checked = input.value === shown;
       const label = input.closest('label');
-      if (label && input.value === 'trained') label.hidden = !trained;
+      if (label) label.hidden = missing(input.value);
     }
   }
 

@@ -186,6 +186,9 @@ export class Session {
   get finished() {
     return false;
   }
+  get best() {
+    return undefined;
+  }
   get first_perfect_step() {
     return undefined;
   }

@@ -137,6 +137,36 @@ test('φ_B1 is learned in the page: at least one round in greedy episodes, withi
   await context.close();
 });
 
+test('training stands still at the recipe’s end, and the best policy of its evaluations can be watched, evaluated and kept', async () => {
+  const { page, context, problems } = await visit(site, { hash: '#seed=2&set=learner.hidden=[8,8];learner.exploration.warm_up=50;training.steps=400;training.evaluate_every=150;training.evaluation_runs=5' });
+  assert.ok(await page.isHidden('label:has(input[value=best])'), 'no policy has been evaluated yet');
+  await page.click('#train');
+  await page.waitForFunction(() => document.getElementById('notices')?.textContent?.includes('Press Train to go on'));
+  const notice = (await page.textContent('#notices')) ?? '';
+  assert.match(notice, /Its best policy, after (150|300) steps, satisfied the task in \d of \d runs: watch it under Best/);
+  const step = firstNumber(/after (150|300)/.exec(notice)?.[0] ?? '');
+  assert.equal(await number(page, 'n-steps'), 400, 'not a step further');
+  await page.keyboard.press('b');
+  await page.waitForFunction((wanted) => document.getElementById('stage-note')?.textContent === `The best policy so far, after ${wanted} steps`, step);
+  assert.ok(await page.isChecked('input[value=best]'));
+  assert.match(await page.evaluate(() => location.hash), /watch=best/);
+  await page.click('#keep');
+  await page.waitForSelector('#kept li');
+  assert.match((await page.textContent('#kept')) ?? '', new RegExp(`Best policy after ${step} steps`));
+  await page.click('#evaluate');
+  await page.waitForFunction(() => document.querySelector('#evaluation .facts')?.textContent?.includes('200 of 200'));
+  // Trained on, another policy may be the best; the choice stays.
+  await page.click('#train');
+  await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent?.replaceAll(',', '')) > 700);
+  await page.click('#train');
+  assert.ok(await page.isChecked('input[value=best]'));
+  await page.reload();
+  await page.waitForSelector('#automaton svg .node.current');
+  assert.ok(await page.isChecked('input[value=policy]'), 'without a best policy the present one is shown');
+  assert.deepEqual(problems, []);
+  await context.close();
+});
+
 test('step, episode, pause, reset and seeds', async () => {
   const { page, context, problems } = await visit(site);
   await page.click('#step');

@@ -49,7 +49,7 @@ test('random text never throws and never yields a value outside the table', () =
     const text = Array.from({ length: next() % 60 }, () => letters[next() % letters.length]).join('');
     const { state } = readHash(`#${text}`);
     assert.ok(Number.isSafeInteger(state.seed) && state.seed >= 0);
-    assert.ok(['trained', 'policy', 'training', 'drive'].includes(state.watch));
+    assert.ok(['trained', 'policy', 'best', 'training', 'drive'].includes(state.watch));
     assert.deepEqual(readHash(writeHash(state)).state, state);
   }
 });
