@@ -5,10 +5,10 @@ import { brief, byId, count, element } from '../dom.js';
 import { percent } from '../views/details.js';
 
 /** @typedef {import('./run.js').Run} Run */
-/** @typedef {{ task: string, formula: string, preset: string, changes: string, variant: string, seed: number, steps: number, episodes: number, seconds: number, successes: number, runs: number, low: number, high: number, rounds: number, sinks: number }} Result */
+/** @typedef {{ task: string, formula: string, preset: string, changes: string, variant: string, seed: number, steps: number, best: number, episodes: number, seconds: number, successes: number, runs: number, low: number, high: number, rounds: number, sinks: number }} Result */
 
 /** @type {readonly (keyof Result)[]} */
-const COLUMNS = Object.freeze(['task', 'formula', 'preset', 'changes', 'variant', 'seed', 'steps', 'episodes', 'seconds', 'successes', 'runs', 'low', 'high', 'rounds', 'sinks']);
+const COLUMNS = Object.freeze(['task', 'formula', 'preset', 'changes', 'variant', 'seed', 'steps', 'best', 'episodes', 'seconds', 'successes', 'runs', 'low', 'high', 'rounds', 'sinks']);
 /** How many results are kept. */
 const MOST = 500;
 
@@ -31,7 +31,7 @@ export class Results {
     this.list = [...this.list, {
       task: description.task.name, formula: description.formula.text, preset: description.task.preset,
       changes: Object.entries(state.set).map(([key, value]) => `${key}=${value}`).join('; '), variant: run.variant.name, seed: run.seed,
-      steps: run.steps, episodes: run.episodes, seconds: Math.round(run.seconds * 10) / 10, successes: progress.successes, runs: progress.runs,
+      steps: run.steps, best: run.best?.step ?? run.steps, episodes: run.episodes, seconds: Math.round(run.seconds * 10) / 10, successes: progress.successes, runs: progress.runs,
       low: progress.low, high: progress.high, rounds: progress.rounds_mean, sinks: progress.sink_rate,
     }].slice(-MOST);
     this.show();
@@ -48,9 +48,9 @@ export class Results {
 
   show() {
     byId('results-panel', HTMLElement).hidden = this.list.length === 0;
-    const heads = ['variant', 'task', 'preset', 'seed', 'steps', 'episodes', 'time', 'success', '95 % interval', 'rounds', 'in a sink'];
+    const heads = ['variant', 'task', 'preset', 'seed', 'steps', 'best after', 'episodes', 'time', 'success', '95 % interval', 'rounds', 'in a sink'];
     const row = (/** @type {Result} */ r) => [
-      r.variant, r.task, r.preset + (r.changes ? ' *' : ''), String(r.seed), count(r.steps), count(r.episodes), `${brief(r.seconds)} s`, `${r.successes}/${r.runs}`,
+      r.variant, r.task, r.preset + (r.changes ? ' *' : ''), String(r.seed), count(r.steps), count(r.best), count(r.episodes), `${brief(r.seconds)} s`, `${r.successes}/${r.runs}`,
       `${percent(r.low)} to ${percent(r.high)}`, brief(r.rounds), percent(r.sinks),
     ];
     this.root.replaceChildren(element('table', {},

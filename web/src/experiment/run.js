@@ -42,6 +42,8 @@ export class Run {
     this.curves = null;
     /** @type {EvaluationProgress | null} */
     this.progress = null;
+    /** The best policy that the recipe's evaluations have seen: the one that is judged at the end. @type {import('../protocol.js').BestPolicy | null} */
+    this.best = null;
     /** @type {Client | null} */
     this.client = null;
     this.generation = 0;
@@ -68,8 +70,9 @@ export class Run {
         this.steps = frame.counter('step');
         this.episodes = frame.counter('episode');
       },
-      telemetry: ({ curves }) => {
+      telemetry: ({ curves, best }) => {
         this.curves = curves;
+        this.best = best;
         this.changed();
       },
       evaluation: ({ progress }) => {
@@ -93,7 +96,7 @@ export class Run {
       if (this.over) return;
       this.stand = 'evaluating';
       this.changed();
-      await client.ask({ kind: 'evaluate', runs: this.evaluation });
+      await client.ask({ kind: 'evaluate', runs: this.evaluation, of: 'best' });
       if (this.over) return;
       this.stand = 'finished';
     } catch (error) {
@@ -102,11 +105,11 @@ export class Run {
     this.changed();
   }
 
-  /** A greedy episode of the run's policy as it is now; `null` where there is none to be had. @param {number} index @returns {Promise<Episode | null>} */
+  /** A greedy episode of the run's policy as it is now, after its end of the best one; `null` where there is none to be had. @param {number} index @returns {Promise<Episode | null>} */
   async rollout(index) {
     if (!this.client || !this.description || this.asking || this.stand === 'failed') return null;
     this.asking = true;
-    const answer = await this.client.ask({ kind: 'rollout', index, of: 'present' }).catch(() => null);
+    const answer = await this.client.ask({ kind: 'rollout', index, of: this.stand === 'finished' ? 'best' : 'present' }).catch(() => null);
     this.asking = false;
     return answer?.episode ?? null;
   }

@@ -27,10 +27,11 @@ test('three variants and two seeds are trained, evaluated and listed; the table 
   for (const name of ['EP-MDP', 'Standard product', 'Standard DDPG']) assert.ok(table.includes(name), name);
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#results-csv')]);
   const lines = (await readFile(await download.path(), 'utf8')).trim().split('\n');
-  assert.match(lines[0], /^task,formula,preset,changes,variant,seed,steps/);
+  assert.match(lines[0], /^task,formula,preset,changes,variant,seed,steps,best,/);
   assert.equal(lines.length, 7);
   // Every variant was trained for the same number of steps, with the same two seeds.
-  for (const line of lines.slice(1)) assert.match(line, /,(3|4),5000,/);
+  // What is judged is the best of its evaluations, one every thousand steps.
+  for (const line of lines.slice(1)) assert.match(line, /,(3|4),5000,[1-5]000,/);
   const saids = await page.$$eval('.variant .verdict', (all) => all.map((one) => one.textContent));
   assert.ok(saids.every((said) => /^2 seeds: /.test(said ?? '')), String(saids));
   assert.deepEqual(problems, []);
