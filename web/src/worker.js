@@ -114,14 +114,13 @@ async function train(mine, pace, until = Infinity) {
       // Several calls a slice, each a quarter of it, so that a slow step is noticed in time.
       do {
         const before = performance.now();
-        const asked = Math.min(chunk, left);
-        const made = open.advance(asked);
+        const made = open.advance(Math.min(chunk, left));
         counted += made;
         left -= made;
         const spent = performance.now() - before;
         chunk = Math.max(1, Math.min(4096, Math.round(spent > 0 ? (chunk * SLICE) / 4 / spent : chunk * 2)));
         // What the recipe ends with is what stands there.
-        if (made < asked && open.finished && !told) break;
+        if (open.finished && !told && until === Infinity) break;
       } while (left > 0 && performance.now() - start < SLICE - 2);
     }
     const now = performance.now();
@@ -198,7 +197,8 @@ async function evaluate(mine, runs, open) {
 function replace(next) {
   generation++;
   opened++;
-  told = false;
+  // A run that was at its recipe's end when it was kept has told so.
+  told = next.finished;
   rate = 0;
   session?.free();
   shipped?.free();

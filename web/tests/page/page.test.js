@@ -155,7 +155,11 @@ test('training stands still at the recipe’s end, and the best policy of its ev
   assert.match((await page.textContent('#kept')) ?? '', new RegExp(`Best policy after ${step} steps`));
   await page.click('#evaluate');
   await page.waitForFunction(() => document.querySelector('#evaluation .facts')?.textContent?.includes('200 of 200'));
-  // Trained on, another policy may be the best; the choice stays.
+  // Opened again, what has come to its end goes on at once. Another policy may be the best then; the choice stays.
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+  await page.setInputFiles('#load', await download.path());
+  await page.waitForFunction(() => document.getElementById('notices')?.textContent?.includes('is open'));
+  await page.keyboard.press('b');
   await page.click('#train');
   await page.waitForFunction(() => Number(document.getElementById('n-steps')?.textContent?.replaceAll(',', '')) > 700);
   await page.click('#train');
