@@ -14,7 +14,7 @@ use super::value_map::{self, ValueMap, ValueMapRequest};
 use super::word::{self, Word, WordReading};
 use super::{FormulaFacts, builtin};
 use crate::automaton::{EmbeddedState, StateId, StateTracking};
-use crate::eval::{Evaluation, Rollout};
+use crate::eval::Rollout;
 use crate::ltl::Formula;
 use crate::rng::{Purpose, Rng};
 use crate::task::Setup;
@@ -143,9 +143,8 @@ impl Session {
         Translator::of_environment(self.run.trainer().product().environment(), labels)
     }
 
-    /// Trains for at most `steps` moves and the updates after them; the number of moves made. While a periodic evaluation of the
-    /// recipe is due, its moves are made instead, several for one. Ends early where the recipe comes to its end: the policy is then
-    /// the one that its last evaluation has seen. The next call goes on beyond it.
+    /// Trains for at most `steps` moves and the updates after them, and at first no further than the recipe's end, where the policy is
+    /// the one that its last evaluation has seen; the number of moves made. While an evaluation is due, its moves are made instead.
     pub fn advance(&mut self, steps: u32) -> u32 {
         let (beyond, mut made) = (self.finished(), 0);
         for _ in 0..steps {
@@ -216,10 +215,7 @@ impl Session {
 
     /// What the best policy so far came to; `None` before the first periodic evaluation.
     pub fn best(&self) -> Option<BestPolicy> {
-        self.run.best().map(|best| {
-            let Evaluation { runs, successes, rounds_mean, .. } = best.evaluation;
-            BestPolicy { step: best.step, runs, successes, rounds_mean }
-        })
+        self.run.best().map(BestPolicy::of)
     }
 
     /// Whether the recipe's budget is spent, or its goal reached. Training may go on nevertheless.

@@ -3,6 +3,7 @@
 use crate::agent::Policy;
 use crate::eval::{Episode, Evaluation, Rollout};
 use crate::rng::{Purpose, Rng};
+use crate::train::Best;
 use serde::Serialize;
 
 /// An evaluation that is going on.
@@ -50,6 +51,14 @@ pub struct BestPolicy {
     pub successes: u32,
     /// Mean of completed rounds.
     pub rounds_mean: f64,
+}
+
+impl BestPolicy {
+    /// The facts of what a run has kept.
+    pub fn of(best: &Best) -> BestPolicy {
+        let Evaluation { runs, successes, rounds_mean, .. } = best.evaluation;
+        BestPolicy { step: best.step, runs, successes, rounds_mean }
+    }
 }
 
 impl Trial {
