@@ -12,10 +12,15 @@ fn open(task: &str) -> Session {
 }
 
 /// A session with small networks that learn early: what is tested here does not depend on how well they learn.
+fn small(request: OpenRequest, overrides: &[(&str, &str)]) -> Session {
+    let small = [("learner.hidden", "[8, 8]"), ("learner.exploration.warm_up", "100")];
+    let overrides = small.iter().chain(overrides).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+    let task = request.task.clone();
+    Session::open(&OpenRequest { overrides, ..request }).unwrap_or_else(|e| panic!("{task}: {e}"))
+}
+
 fn light(task: &str) -> Session {
-    let small = [("learner.hidden", "[8, 8]"), ("learner.exploration.warm_up", "100"), ("training.evaluate_every", "150")];
-    let overrides = small.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
-    Session::open(&OpenRequest { overrides, ..request(task) }).unwrap_or_else(|e| panic!("{task}: {e}"))
+    small(request(task), &[("training.evaluate_every", "150")])
 }
 
 /// The numbers of field `name` in a frame.
@@ -279,14 +284,9 @@ fn losses_are_kept_by_module() {
 
 #[test]
 fn training_stands_still_where_its_recipe_ends() {
-    let with = |task: &str, formula: Option<&str>, overrides: &[(&str, &str)]| {
-        let small = [("learner.hidden", "[8, 8]"), ("learner.exploration.warm_up", "100"), ("training.evaluation_runs", "3")];
-        let overrides = small.iter().chain(overrides).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-        Session::open(&OpenRequest { formula: formula.map(str::to_owned), overrides, ..request(task) })
-            .unwrap_or_else(|e| panic!("{e}"))
-    };
     // What always holds is satisfied by every policy, so the first evaluation finds no failure.
-    let mut learned = with("melas", Some("G F (m1 | !m1)"), &[("training.evaluate_every", "150")]);
+    let always = OpenRequest { formula: Some("G F (m1 | !m1)".to_owned()), ..request("melas") };
+    let mut learned = small(always, &[("training.evaluate_every", "150"), ("training.evaluation_runs", "3")]);
     assert_eq!((learned.best(), learned.finished()), (None, false));
     let mut made = 0;
     while !learned.finished() {
@@ -302,7 +302,7 @@ fn training_stands_still_where_its_recipe_ends() {
     let mut kept = Session::restore(&learned.save_policy()).unwrap_or_else(|e| panic!("{e}"));
     assert!(states(&mut kept) == states(&mut learned), "the best policy is the present one");
     assert_eq!(learned.advance(40), 40, "whoever wants more gets it");
-    let mut spent = with("ball_pass_b1", None, &[("training.steps", "130"), ("training.evaluate_every", "0")]);
+    let mut spent = small(request("ball_pass_b1"), &[("training.steps", "130"), ("training.evaluate_every", "0")]);
     assert_eq!((spent.advance(10_000), spent.finished()), (130, true));
     assert_eq!((spent.advance(20), spent.best()), (20, None));
 }

@@ -8,6 +8,7 @@ import { byId, count, forgetColours, offer, setText } from './dom.js';
 import { notice } from './keeping.js';
 import { tellProblems } from './link.js';
 import { NoMap } from './maps/shelf.js';
+import { Policies } from './policies.js';
 import { Signals } from './signals.js';
 import { initialState } from './state.js';
 import { Theatre } from './theatre.js';
@@ -32,10 +33,6 @@ const $ = {
   any: (/** @type {string} */ id) => byId(id, HTMLElement),
 };
 
-/** The trained policy of a task. @param {string} task @returns {Promise<Uint8Array | null>} */
-const fetchPolicy = (task) => fetch(`assets/policies/${encodeURIComponent(task)}.safetensors`)
-  .then(async (answer) => (answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null)).catch(() => null);
-
 /** What the best policy of a training came to, as a sentence of a notice. @param {import('./protocol.js').BestPolicy | null} best */
 const inWords = (best) => (best ? `Its best policy, after ${count(best.step)} steps, satisfied the task in ${count(best.successes)} of ${count(best.runs)} runs: watch it under Best. ` : '');
 
@@ -55,10 +52,7 @@ export class App {
     this.training = false;
     /** The tasks on offer. @type {import('./protocol.js').TaskEntry[]} */
     this.tasks = [];
-    /** The policy of the first task, on its way. @type {{ task: string, bytes: Promise<Uint8Array | null> } | null} */
-    this.hastened = null;
-    /** The tasks that a trained policy comes for. @type {string[]} */
-    this.policies = [];
+    this.policies = new Policies();
     this.client = new Client(startWorker, this.listeners());
     this.theatre = new Theatre((command) => this.ask(command), this.signals);
     this.spec = this.makeSpec();
@@ -106,13 +100,12 @@ export class App {
         this.evaluation.update(progress);
         this.signals.tell('evaluation', progress);
       },
-      finished: ({ generation, steps, first_perfect_step, best }) => {
+      finished: ({ generation, steps, first_perfect_step }) => {
         if (generation !== this.generation) return;
         this.setTraining(false);
-        this.heardOfBest(best);
         notice(first_perfect_step === steps
           ? `Learned: every run of the evaluation after ${count(steps)} steps satisfies the task. Press Train to go on.`
-          : `Training has used up the budget of its recipe. ${inWords(best)}Press Train to go on.`);
+          : `Training has used up the budget of its recipe. ${inWords(this.theatre.best)}Press Train to go on.`);
         this.signals.tell('finished', first_perfect_step);
       },
       halted: ({ generation, message }) => {
@@ -172,11 +165,9 @@ export class App {
       requestAnimationFrame(paint);
     };
     requestAnimationFrame(paint);
-    const listed = fetch('policies.json').then((r) => r.json()).catch(() => []);
-    this.hasten(listed);
+    this.policies.hasten(this.state.task);
     try {
       this.tasks = await this.client.ready;
-      this.policies = await listed;
       this.spec.offer(this.tasks);
       if (!this.state.task.includes('\n') && !this.tasks.some((t) => t.name === this.state.task)) {
         tellProblems([{ property: 'task', message: `${this.state.task} is unknown; known are ${this.tasks.map((t) => t.name).join(', ')}` }]);
@@ -188,12 +179,6 @@ export class App {
     await this.open(this.state, true);
     this.curves = new Curves($.any('curves'), await loadPlot());
     if (this.points) this.curves.update(this.points, this.description?.modules);
-  }
-
-  /** Fetches the trained policy of the first task while its session is being opened. @param {Promise<string[]>} listed */
-  async hasten(listed) {
-    const { task } = this.state;
-    if ((await listed).includes(task)) this.hastened = { task, bytes: fetchPolicy(task) };
   }
 
   // --- the session --------------------------------------------------------------------------------------------------------
@@ -288,9 +273,9 @@ export class App {
   /** Loads the trained policy of the open task, if one comes with the page and the task is as it is shipped. @param {number} mine */
   async loadTrained(mine) {
     const { task, formula, hoa, map } = this.state;
-    if (formula || hoa || map || !this.policies.includes(task)) return false;
+    if (formula || hoa || map) return false;
     try {
-      const bytes = await (this.hastened?.task === task ? this.hastened.bytes : fetchPolicy(task));
+      const bytes = await this.policies.of(task);
       if (!bytes || mine !== this.generation) return false;
       const { generation, fits } = await this.client.ask({ kind: 'load_policy', bytes });
       return fits && generation === mine;

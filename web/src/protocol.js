@@ -183,7 +183,7 @@
  *   | { kind: 'frame', generation: number, data: Float32Array }
  *   | { kind: 'telemetry', generation: number, rate: number, steps: number, memory: number, curves: Curves, modules: ModuleStatistics[], best: BestPolicy | null }
  *   | { kind: 'evaluation', generation: number, progress: EvaluationProgress }
- *   | { kind: 'finished', generation: number, steps: number, first_perfect_step: number | null, best: BestPolicy | null }
+ *   | { kind: 'finished', generation: number, steps: number, first_perfect_step: number | null }
  *   | { kind: 'halted', generation: number, message: string }
  *   | { kind: 'broken', message: string }} Reply
  */

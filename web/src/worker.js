@@ -69,6 +69,9 @@ function present() {
   return session;
 }
 
+/** How many steps of training a session has made. @param {Session} open */
+const stepsOf = (open) => /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step');
+
 function sendFrame() {
   const data = present().frame();
   tell({ kind: 'frame', generation: opened, data }, [data.buffer]);
@@ -76,9 +79,8 @@ function sendFrame() {
 
 function sendTelemetry() {
   const open = present();
-  const steps = /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step');
   const bytes = memory?.buffer.byteLength ?? 0;
-  tell({ kind: 'telemetry', generation: opened, rate, steps, memory: bytes, curves: open.curves(), modules: open.statistics(), best: open.best ?? null });
+  tell({ kind: 'telemetry', generation: opened, rate, steps: stepsOf(open), memory: bytes, curves: open.curves(), modules: open.statistics(), best: open.best ?? null });
 }
 
 /**
@@ -89,9 +91,10 @@ function sendTelemetry() {
  */
 async function train(mine, pace, until = Infinity) {
   const open = present();
-  const counters = /** @type {Frame} */ (frame);
   /** Steps that are left. */
-  let left = until - counters.at(open.frame(), 0).counter('step');
+  let left = until - stepsOf(open);
+  /** Whether the recipe is at its end, which is to be told. */
+  const ended = () => open.finished && !told && until === Infinity;
   let chunk = 8;
   let counted = 0;
   let since = performance.now();
@@ -120,7 +123,7 @@ async function train(mine, pace, until = Infinity) {
         const spent = performance.now() - before;
         chunk = Math.max(1, Math.min(4096, Math.round(spent > 0 ? (chunk * SLICE) / 4 / spent : chunk * 2)));
         // What the recipe ends with is what stands there.
-        if (open.finished && !told && until === Infinity) break;
+        if (ended()) break;
       } while (left > 0 && performance.now() - start < SLICE - 2);
     }
     const now = performance.now();
@@ -142,12 +145,12 @@ async function train(mine, pace, until = Infinity) {
       sendTelemetry();
       return;
     }
-    if (open.finished && !told && until === Infinity) {
+    if (ended()) {
       // Once; whoever wants more presses Train again.
       told = true;
       stop();
       sendTelemetry();
-      tell({ kind: 'finished', generation: opened, steps: counters.at(open.frame(), 0).counter('step'), first_perfect_step: open.first_perfect_step ?? null, best: open.best ?? null });
+      tell({ kind: 'finished', generation: opened, steps: stepsOf(open), first_perfect_step: open.first_perfect_step ?? null });
     }
     await (pace > 0 ? sleep(Math.max(SLICE, 1000 / pace / 2)) : breathe());
   }
@@ -312,7 +315,7 @@ function obey(command) {
     case 'keep': {
       const open = present();
       const bytes = SAVERS[command.form](open);
-      return { generation: opened, steps: /** @type {Frame} */ (frame).at(open.frame(), 0).counter('step'), bytes };
+      return { generation: opened, steps: stepsOf(open), bytes };
     }
     case 'save':
       return SAVERS[command.form](present());
